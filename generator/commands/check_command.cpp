@@ -98,7 +98,7 @@ int compare(const CheckArguments& arguments, const CompiledModel& compiled) {
 int run(const CheckArguments& given) {
   const std::optional<CheckArguments> arguments = completed(given);
   if (!arguments) return kUsage;
-  std::optional<LoadedMechanism> loaded = load(arguments->model);
+  std::optional<LoadedMechanism> loaded = load(arguments->model, External::kCalled);
   if (!loaded) return kModelWrong;
   if (const std::string wrong = arguments->emission.apply(*loaded); !wrong.empty()) {
     fmt::print(stderr, "error: {}\n", wrong);

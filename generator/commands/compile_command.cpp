@@ -35,7 +35,7 @@ std::string check_pass(const std::string& pass) {
 }
 
 int run(const CompileArguments& arguments, const CLI::App& command) {
-  std::optional<LoadedMechanism> loaded = load(arguments.model);
+  std::optional<LoadedMechanism> loaded = load(arguments.model, External::kCalled);
   if (!loaded) return kModelWrong;
   if (const std::string wrong = arguments.emission.apply(*loaded); !wrong.empty()) {
     fmt::print(stderr, "error: {}\n", wrong);

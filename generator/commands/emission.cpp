@@ -10,10 +10,12 @@
 #include <algorithm>
 #include <array>
 #include <string_view>
+#include <type_traits>
 
 #include "commands/kinematic_choice.hpp"
 #include "commands/memory_checks.hpp"
 #include "commands/method_names.hpp"
+#include "model/read/members.hpp"
 
 namespace jourdain::commands {
 
@@ -53,6 +55,20 @@ void EmissionArguments::add_to(CLI::App& command) {
   command.add_flag("--clock", clock, "keep the time in State, though nothing depends on it");
 }
 
+namespace {
+
+bool calls_user_code(model::Mechanism mechanism) {
+  bool found = false;
+  const auto visit = [&found]<class Part>(const Part& part) {
+    if constexpr (std::is_same_v<Part, model::Expression>)
+      found = found || part.calls(support::Function::kCall);
+  };
+  model::Members(visit).of(mechanism);
+  return found;
+}
+
+}  // namespace
+
 std::string EmissionArguments::apply(LoadedMechanism& loaded) const {
   if (std::string conflict = check_derivative_terms(functions, loaded.options.derivative_terms);
       !conflict.empty())
@@ -60,6 +76,8 @@ std::string EmissionArguments::apply(LoadedMechanism& loaded) const {
   if (std::string conflict = check_multistep(functions, loaded.mechanism); !conflict.empty()) return conflict;
   if (packs && language == "c") return "--packs is of C++, and the language is c";
   if (interface && language != "c") return "--interface is in C: add --language c";
+  if (interface && calls_user_code(loaded.mechanism))
+    return "--interface has no place for external functions: the table of a model is complete";
   if (interface && loaded.options.name == "jourdain")
     return "jourdain_interface.h is the header of all models: choose another name with --name";
   std::vector<std::string> chosen = functions;

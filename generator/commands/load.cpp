@@ -103,9 +103,10 @@ void ModelArguments::add_to(CLI::App& command) {
       ->capture_default_str();
 }
 
-std::optional<LoadedMechanism> load(const ModelArguments& arguments) {
+std::optional<LoadedMechanism> load(const ModelArguments& arguments, External external) {
   support::Diagnostics diagnostics(arguments.path, support::read_file(arguments.path));
   model::ReadOptions read = arguments.read;
+  read.external = external == External::kCalled;
   if (!arguments.root.empty())
     read.root = arguments.root == "free" ? model::RootJoint::kFree : model::RootJoint::kFixed;
   std::optional<model::Mechanism> mechanism = model::read_mechanism(diagnostics, read);

@@ -45,6 +45,10 @@ struct LoadedMechanism {
   const loops::LoopPlan* plan() const { return options.loops ? &*options.loops : nullptr; }
 };
 
+/// What functions that are 'external' are: calls of code that is not here, or their expressions, as all commands need that
+/// run a model.
+enum class External { kCalled, kWrittenOut };
+
 /// "1 degree of freedom".
 std::string freedom_text(const LoadedMechanism& loaded);
 
@@ -53,7 +57,8 @@ std::vector<std::string> loop_sentences(const LoadedMechanism& loaded);
 
 /// Reads and checks the model and prints its diagnostics to stderr; nothing when it has errors. Throws EnvironmentError
 /// when the file cannot be read.
-std::optional<LoadedMechanism> load(const ModelArguments& arguments);
+std::optional<LoadedMechanism> load(const ModelArguments& arguments,
+                                    External external = External::kWrittenOut);
 
 /// Prints why the compiler refused to emit, in three lines. The status to exit with: kModelWrong where double
 /// has no room for the mechanism's numbers.

@@ -56,6 +56,7 @@ class BodyBuilder {
         uses_(ir::use_counts(program)),
         is_angle_(angles_of_time(program)),
         name_(program.nodes.size()) {
+    count_shared_arguments();
     for (std::size_t i = 0; i < program.nodes.size(); ++i)
       if (const auto it = stored.find(ValueId(i)); it != stored.end())
         name_[i] = it->second;
@@ -88,9 +89,19 @@ class BodyBuilder {
   }
 
  private:
+  /// A list of arguments is written into each call that takes it.
+  void count_shared_arguments() {
+    for (std::size_t i = program_.nodes.size(); i-- > 0;) {
+      const Node& node = program_.nodes[i];
+      if (node.op != Op::kArgument || uses_[i] < 2) continue;
+      uses_[node.a.value] += uses_[i] - 1;
+      uses_[node.b.value] += uses_[i] - 1;
+    }
+  }
+
   bool is_statement(std::size_t i) const {
     const Node& node = program_.nodes[i];
-    if (ir::operand_count(node.op) == 0) return false;
+    if (ir::operand_count(node.op) == 0 || node.op == Op::kArgument) return false;
     if (node.op == Op::kSin || node.op == Op::kCos) return true;
     if (node.op == Op::kNegate) return uses_[i] > 1;
     if (bundles_.width(i) > 1) return !bundles_.is_read_once(i) || !program_.labels[i].empty();
@@ -343,6 +354,7 @@ class BodyBuilder {
       const Expression place = leaf_(node.leaf, node.index);
       return node.leaf == ir::LeafKind::kTime ? to_angle(place) : place;
     }
+    if (node.op == Op::kCall) return call(node);
     const bool turns = node.op == Op::kSin || node.op == Op::kCos;
     const bool of_angles =
         turns || (is_angle_[id.value] && node.op != Op::kSqrt && !ir::is_function(node.op));
@@ -352,6 +364,14 @@ class BodyBuilder {
       operands.push_back(of_angles ? as_computed(operand) : real(operand));
     }
     return operation(node.op, std::move(operands));
+  }
+
+  Expression call(const Node& node) const {
+    std::vector<Expression> arguments;
+    for (Node list = program_[node.a]; list.op == Op::kArgument; list = program_[list.b])
+      arguments.insert(arguments.begin(), real(list.a));
+    return invoke(name("model").dot("functions"), support::called_by(program_[node.b].literal).member(),
+                  std::move(arguments));
   }
 
   const Program& program_;

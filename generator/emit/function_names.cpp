@@ -18,7 +18,9 @@ const char* function_name(support::Function function) {
                                                                    "larger",
                                                                    "where_negative",
                                                                    "where_not_negative",
-                                                                   "entry"};
+                                                                   "entry",
+                                                                   "argument",
+                                                                   "call"};
   return kNames[static_cast<std::size_t>(function)];
 }
 

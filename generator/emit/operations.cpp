@@ -108,6 +108,7 @@ class Counter {
       case Kind::kLanes:
       case Kind::kToReal:
       case Kind::kToAngle:
+      case Kind::kInvoke:
       case Kind::kInputsAt:
         break;
     }

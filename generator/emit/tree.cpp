@@ -55,6 +55,10 @@ Expression square_root(const Expression& a) { return operation(Op::kSqrt, {a}); 
 Expression lanes(std::vector<Expression> numbers) { return {Kind::kLanes, "", std::move(numbers)}; }
 Expression to_real(const Expression& a) { return {Kind::kToReal, "", {a}}; }
 Expression to_angle(const Expression& time) { return {Kind::kToAngle, "", {time}}; }
+Expression invoke(const Expression& object, const std::string& function, std::vector<Expression> arguments) {
+  arguments.insert(arguments.begin(), object);
+  return {Kind::kInvoke, function, std::move(arguments)};
+}
 Expression inputs_at(const Expression& state) { return {Kind::kInputsAt, "", {state}}; }
 Expression position_count() { return {Kind::kPositionCount, ""}; }
 Expression velocity_count() { return {Kind::kVelocityCount, ""}; }

@@ -28,6 +28,7 @@ struct Expression {
     kLanes,          ///< numbers that are computed with at once: the operands, reals
     kToReal,         ///< an angle, a time or an integer as a real
     kToAngle,        ///< a time as an angle
+    kInvoke,         ///< member `name` of the object operands[0], called with the other operands, reals
     kInputsAt        ///< what the inputs are at the state operands[0]: held over the step, or sampled there
   };
   Kind kind = Kind::kInteger;
@@ -64,6 +65,7 @@ Expression square_root(const Expression& a);
 Expression lanes(std::vector<Expression> numbers);
 Expression to_real(const Expression& a);
 Expression to_angle(const Expression& time);
+Expression invoke(const Expression& object, const std::string& function, std::vector<Expression> arguments);
 Expression inputs_at(const Expression& state);
 Expression position_count();
 Expression velocity_count();

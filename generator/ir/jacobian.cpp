@@ -102,6 +102,11 @@ class Graph {
       case Op::kCos:
         if (by_a) from_a(-builder_.unary(Op::kSin, a));
         break;
+      case Op::kArgument:  // what calls with it has its derivatives
+        break;
+      case Op::kCall:
+        add_slopes(i);
+        break;
       default: {
         if (!by_a && !by_b) break;
         const auto [of_a, of_b] = partials(builder_, function_of(node.op), a, b, value, by_b);
@@ -109,6 +114,19 @@ class Graph {
         if (by_b) connect(node.b.value, i, of_b);
         break;
       }
+    }
+  }
+
+  /// Of a call, by its arguments: calls of its partial derivatives with the same.
+  void add_slopes(std::size_t i) {
+    const Node call = builder_.program().nodes[i];
+    const auto number = static_cast<std::uint32_t>(builder_.program()[call.b].literal);
+    std::size_t k = support::called_function(number).arguments.size();
+    for (Node list{.op = Op::kArgument, .b = call.a}; k-- > 0;) {
+      list = builder_.program()[list.b];
+      if (!is_active(list.a.value)) continue;
+      const Signed slope = builder_.literal(support::number_of_slope(number, k));
+      connect(list.a.value, i, builder_.function(support::Function::kCall, Signed{call.a}, slope));
     }
   }
 

@@ -85,6 +85,7 @@ Operations count_operations(const Program& program) {
   for (const Node& node : program.nodes) switch (node.op) {
       case Op::kLiteral:
       case Op::kLeaf:
+      case Op::kArgument:
         break;
       case Op::kNegate:
         ++count.negate;

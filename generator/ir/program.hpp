@@ -41,7 +41,9 @@ enum class Op : std::uint8_t {
   kMax,
   kWhereNegative,
   kWhereNotNegative,
-  kEntry
+  kEntry,
+  kArgument,
+  kCall
 };
 
 constexpr Op op_of(support::Function function) {
@@ -55,6 +57,9 @@ constexpr support::Function function_of(Op op) {
 }
 /// Takes one of its operands, or a part of one, as it is: costs about as much as a sum.
 constexpr bool is_selection(Op op) { return is_function(op) && support::facts_of(function_of(op)).has_kinks; }
+
+/// A call of user code, or a list of its arguments, which is no value.
+constexpr bool is_call(Op op) { return op == Op::kCall || op == Op::kArgument; }
 
 using support::kLeafKinds;
 using support::LeafKind;
@@ -106,7 +111,7 @@ struct Program {
 struct Operations {
   std::size_t add = 0, subtract = 0, multiply = 0, divide = 0, sqrt = 0, negate = 0, sin = 0, cos = 0,
               atan2 = 0;
-  std::size_t functions = 0;  ///< exp, log, sinh, cosh, tanh and powers with real exponents
+  std::size_t functions = 0;  ///< exp, log, sinh, cosh, tanh, powers with real exponents, calls of user code
   std::size_t selections =
       0;  ///< abs, floor, min, max, what is taken where a sign says so, entries of arrays
 

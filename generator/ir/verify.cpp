@@ -41,6 +41,27 @@ class Inspection {
     if (operands == 2) inspect_operand(i, node.b);
     if (node.op == Op::kEntry && node.b.value < i && program_.nodes[node.b.value].op != Op::kLiteral)
       found("%{} is an entry of an array that %{} decides, which is no literal", i, node.b.value);
+    inspect_call(i);
+  }
+
+  void inspect_call(std::size_t i) {
+    const Node& node = program_.nodes[i];
+    const auto op_of = [&](ValueId id) { return id.value < i ? program_.nodes[id.value].op : Op::kLeaf; };
+    if (node.op == Op::kCall) {
+      std::size_t count = 0;
+      for (ValueId list = node.a; op_of(list) == Op::kArgument; list = program_.nodes[list.value].b) ++count;
+      if (op_of(node.b) != Op::kLiteral)
+        found("%{} calls what %{} decides, which is no literal", i, node.b.value);
+      else if (const auto& called = support::called_by(program_.nodes[node.b.value].literal);
+               called.arguments.size() != count)
+        found("%{} calls {} with {} arguments", i, called.member(), count);
+    }
+    if (node.op == Op::kArgument && op_of(node.b) != Op::kArgument && op_of(node.b) != Op::kLiteral)
+      found("%{} is an argument behind %{}, which is none", i, node.b.value);
+    const int operands = operand_count(node.op);
+    if ((operands >= 1 && node.op != Op::kCall && op_of(node.a) == Op::kArgument) ||
+        (operands == 2 && node.op != Op::kArgument && op_of(node.b) == Op::kArgument))
+      found("%{} takes arguments of a call for a value", i);
   }
 
   void inspect_operand(std::size_t i, ValueId operand) {

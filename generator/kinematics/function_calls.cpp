@@ -46,7 +46,7 @@ Ex applied(Function function, const Ex& a, const Ex& b) {
   if (function == Function::kAbs && is_number(a)) return cln::minusp(real(a)) ? Ex(-a) : a;
   if (function == Function::kMin && is_number(a) && is_number(b)) return real(b) < real(a) ? b : a;
   if (function == Function::kMax && is_number(a) && is_number(b)) return real(a) < real(b) ? b : a;
-  if (is_number(a) && (is_unary || is_number(b))) {
+  if (!support::is_opaque(function) && is_number(a) && (is_unary || is_number(b))) {
     const support::ScaledReal value =
         support::value_of(function, support::ScaledReal(real(a)), support::ScaledReal(real(b)));
     if (value.is_number()) return numeric(cln::cl_N(cln::cl_R(value.value())));

@@ -63,6 +63,8 @@ Symbol rate_with_kinks(Function function, const Symbol& a, const Symbol& b, cons
 
 Symbol rate_of_function(Function function, const Symbol& a, const Symbol& b, const Symbol& da,
                         const Symbol& db, bool of_a_alone) {
+  if (support::is_opaque(function))
+    throw support::InternalError("a call of user code is not differentiated here");
   const support::FunctionFacts& facts = support::facts_of(function);
   if (facts.has_kinks) return rate_with_kinks(function, a, b, da, db);
   const Symbol one = a.number(1);

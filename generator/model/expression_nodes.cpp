@@ -65,7 +65,8 @@ std::size_t NodeList::append(const Expression& expression) {
 
 std::size_t NodeList::add(const Node& node) {
   const int operands = operand_count(node);
-  if (operands > 0 && is_literal(node.left) && (operands == 1 || is_literal(node.right)))
+  const bool is_opaque = node.op == Op::kFunction && support::is_opaque(node.function);
+  if (operands > 0 && !is_opaque && is_literal(node.left) && (operands == 1 || is_literal(node.right)))
     return push({.op = Op::kLiteral, .value = folded(nodes_, node)});
   switch (node.op) {
     case Op::kNegate:

@@ -195,10 +195,8 @@ class Parser : public ExpressionDimensions {
     if (variable != scope_.end() &&
         (is_expression_word(word) || (word == "t" && std::count_if(variable, scope_.end(), is_called) > 1)))
       fail(begin, word.size(), fmt::format("'{}' has two meanings", word), "rename the coordinate or input");
-    if (variable != scope_.end()) {
-      strict_ = strict_ || variable->measure.is_anchored();
+    if (variable != scope_.end())
       return {variable->meaning.value_or(Expression::variable(variable->variable)), variable->measure};
-    }
     if (word == "pi") return {Expression(std::numbers::pi), Measure::count()};
     if (word == "deg") return {Expression(std::numbers::pi / 180), Measure::degree()};
     if (next_is('(')) return word == "if" ? selection(depth) : function(word, begin, depth);

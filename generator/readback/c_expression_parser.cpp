@@ -122,7 +122,25 @@ const Expression* ExpressionParser::c_name() {
   return &made;
 }
 
+/// `model->functions.grip(model->functions.context, x)`: of what goes to functions of the user only the numbers.
+const Expression* ExpressionParser::c_call_of_user(Expression& call) {
+  std::vector<const Expression*>& arguments = call.arguments;
+  const auto is_member = [this](const Expression* of, std::string_view name) {
+    return of->kind == ExpressionKind::kMember && unit_.symbols.text(of->name) == name;
+  };
+  const auto is_of_model = [&](const Expression* object) {
+    return is_member(object, "functions") && object->a->kind == ExpressionKind::kDereference &&
+           object->a->a->kind == ExpressionKind::kName && unit_.symbols.text(object->a->a->name) == "model";
+  };
+  if (arguments.empty() || !is_member(arguments[0], "context") || !is_of_model(arguments[0]->a) ||
+      !is_of_model(call.a->a))
+    refuse_here("a function of the user and its context");
+  arguments.erase(arguments.begin());
+  return &call;
+}
+
 const Expression* ExpressionParser::c_call(Expression& call) {
+  if (call.a->kind == ExpressionKind::kMember) return c_call_of_user(call);
   if (call.a->kind != ExpressionKind::kName) return &call;
   const std::string& name = unit_.symbols.text(call.a->name);
   const auto& arguments = call.arguments;

@@ -94,6 +94,13 @@ class CHeaderCheck {
       check_struct(unit_, *found, it->second, findings_);
       wanted.erase(it);
     }
+    Texts pointers, called;
+    for (const auto& [name, count] : unit_.user_functions)
+      pointers.push_back(fmt::format("{}/{}", name, count));
+    for (const auto& [name, function] : expected_.user_functions())
+      called.push_back(fmt::format("{}/{}", name, function.arguments.size()));
+    findings_.expect("functions of the user", fmt::format("{}", fmt::join(pointers, "; ")),
+                     fmt::format("{}", fmt::join(called, "; ")));
     if (!has_model) findings_.add("there is no model struct");
     for (const auto& [name, members] : wanted) findings_.add("there is no struct {}", name);
   }

@@ -11,13 +11,14 @@ namespace jourdain::readback {
 namespace {
 
 /// Structs, without their prefix, and what C++ calls them.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kStructs = {
+constexpr std::array<std::pair<std::string_view, std::string_view>, 13> kStructs = {
     {{"parameters", "Parameters"},
      {"state", "State"},
      {"input", "Input"},
      {"output_values", "Outputs"},
      {"linearization", "Linearization"},
      {"model", "Model"},
+     {"functions", "Functions"},
      {"rate_history1", "RateHistory1"},
      {"rate_history2", "RateHistory2"},
      {"accelerations", "Accelerations"},
@@ -167,12 +168,42 @@ class CFileParser : public StatementParser {
       expect(";");
       return expect("}");
     }
+    if (is_word("void")) return user_functions();
     do {
       if (is_word("struct"))
         anonymous(made);
       else
         variables(made);
     } while (!accept("}"));
+  }
+
+  /// `void *context; double (*grip)(void *context, double slip);`
+  void user_functions() {
+    const auto pointer_to_context = [this] {
+      expect_word("void");
+      expect("*");
+      expect_word("context");
+    };
+    pointer_to_context();
+    expect(";");
+    do {
+      expect_word(known_.c->real());
+      expect("(");
+      expect("*");
+      const std::string name = unit_.symbols.text(expect_name());
+      expect(")");
+      expect("(");
+      pointer_to_context();
+      std::size_t count = 0;
+      for (; accept(","); ++count) {
+        expect_word(known_.c->real());
+        expect_name();
+      }
+      expect(")");
+      expect(";");
+      unit_.user_functions.emplace_back(name, count);
+    } while (!accept("}"));
+    if (peek().text != known_.c->prefix + "functions") refuse_here("the functions of the user");
   }
 
   void variables(Struct& made) {

@@ -134,6 +134,7 @@ Interpreter::Candidate Interpreter::choose(const std::vector<const Function*>& f
 }
 
 Value Interpreter::call(const Expression& expression) {
+  if (expression.a->kind == ExpressionKind::kMember) return call_of_user(expression);
   if (expression.a->kind != ExpressionKind::kName)
     refuse_at(expression.place, "a call of what is no function");
   const Expression& callee = *expression.a;

@@ -10,6 +10,7 @@ std::size_t* counter(ir::Operations& count, ir::Op op) {
   switch (op) {
     case ir::Op::kLiteral:
     case ir::Op::kLeaf:
+    case ir::Op::kArgument:
       return nullptr;
     case ir::Op::kNegate:
       return &count.negate;

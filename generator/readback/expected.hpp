@@ -4,12 +4,14 @@
 
 #include <array>
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "ir/module.hpp"
 #include "ir/text_choices.hpp"
+#include "support/called_function.hpp"
 #include "support/files.hpp"
 
 namespace jourdain::readback {
@@ -95,6 +97,9 @@ struct Expected {
   std::vector<std::string> sentences;              ///< all that the header says at its top
   double backward_error = 0, condition = 0;
   std::vector<std::string> functions;  ///< in the order of emission
+
+  /// What programs call and the user defines, by its member's name.
+  std::map<std::string, support::CalledFunction> user_functions() const;
 };
 
 }  // namespace jourdain::readback

@@ -85,6 +85,7 @@ class ExpressionParser {
   TypeName c_type();
   const Expression* c_name();
   const Expression* c_call(Expression& call);
+  const Expression* c_call_of_user(Expression& call);
   const Expression* cpp_call(Expression& call);
   const Expression* c_parenthesis();
   const Expression* dereferenced(const Expression* pointer);

@@ -124,6 +124,7 @@ class Interpreter {
   // calls
   Value call(const Expression& expression);
   Value call_c_library(const Expression& expression, const std::vector<Value>& arguments);
+  Value call_of_user(const Expression& expression);
   const std::vector<double>* table_of(const Expression& callee);
   Value entry(const std::vector<double>& table, const std::vector<Value>& arguments,
               const Expression& expression);

@@ -227,7 +227,7 @@ class FileParser : public StatementParser {
     known_.struct_templates.insert(made.name);
     const Symbol space = unit_.symbols[scope_.empty() ? unit_.name_of_namespace : scope_];
     known_.qualified.insert({space, made.name});
-    members(made);
+    if (!is(";")) members(made);
     expect(";");
     unit_.structs.push_back(&made);
   }

@@ -31,6 +31,7 @@ void check_functions(const Unit& unit, const Expected& expected, Findings& findi
 
 void check_cpp(const Files& files, const Expected& expected, Findings& findings, Record& record) {
   Unit unit;
+  unit.called = expected.user_functions();
   parse(unit, {&files[0], &files[1], &files[2]}, expected.choices.packs);
   check_structs(unit, expected, findings);
   check_indices(unit, expected, findings);
@@ -56,6 +57,7 @@ void check_c(const Files& files, const Expected& expected, Findings& findings, R
     const CText c = {expected.name + (is_float ? "_f_" : "_"), is_float};
     const Expected wanted = is_float ? rounded(expected) : expected;
     Unit unit;
+    unit.called = expected.user_functions();
     parse_c(unit, files[next], files[next + 1], c);
     next += 2;
     findings.counts.clear();

@@ -56,6 +56,7 @@ void check_aliases(const Unit& unit, const Struct& model, const Expected& expect
   for (const char* name : {"Parameters", "State", "Input"})
     wanted[name] = fmt::format("{}::{}<Real>", expected.name, name);
   if (!expected.outputs.empty()) wanted["Outputs"] = expected.name + "::Outputs<Real>";
+  if (!expected.user_functions().empty()) wanted["Functions"] = expected.name + "::Functions<Real>";
   if (linearizes(expected)) wanted["Linearization"] = expected.name + "::Linearization<Real>";
   for (const auto& [name, type] : model.aliases) found[unit.symbols.text(name)] = text_of(unit, type);
   findings.expect("types of Model", fmt::format("{}", fmt::join(found, "; ")),
@@ -140,10 +141,12 @@ void check_names(const Unit& unit, const Expected& expected, Findings& findings)
 }
 
 void check_files(const Unit& unit, const Expected& expected, Findings& findings) {
-  const std::vector<Texts> wanted = {
+  std::vector<Texts> wanted = {
       {"#pragma once", "#ifndef JOURDAIN_FUNCTION", "#define JOURDAIN_FUNCTION", "#endif"},
       {"#pragma once", "#include <math.h>", fmt::format("#include \"{}.hpp\"", expected.name)},
       {fmt::format("#include \"{}_kernels.hpp\"", expected.name)}};
+  if (!expected.user_functions().empty())
+    wanted[2].push_back(fmt::format("#include \"{}_functions.hpp\"", expected.name));
   findings.expect("namespace", unit.name_of_namespace, expected.name);
   for (std::size_t i = 0; i < wanted.size(); ++i)
     findings.expect("directives of " + unit.files[i], fmt::format("{}", fmt::join(unit.directives[i], "; ")),

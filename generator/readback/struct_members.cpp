@@ -88,6 +88,7 @@ std::map<std::string, Texts> struct_members(const Expected& expected) {
   if (linearizes(expected))
     for (const ArrayArgument& member : linearization_members(expected))
       list["Linearization"].push_back("Real " + member.name + bounds(member.extents));
+  if (!expected.user_functions().empty()) list["Functions"];
   const std::size_t ny = expected.positions.size(), nz = expected.velocities.size();
   const bool in_c = expected.choices.language == ir::Language::kC;
   for (const FunctionApi& api : steps(expected)) {

@@ -10,6 +10,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "support/called_function.hpp"
+
 namespace jourdain::readback {
 
 /// A name, by number; 0 is no name.
@@ -193,8 +195,11 @@ struct Unit {
   std::vector<const Constant*> declared_constants;  ///< of C: without their values
   std::set<Symbol> numbers;  ///< struct templates that stand for the type of their numbers
   std::map<std::string, std::vector<double>>
-      tables;                  ///< of namespace detail: functions that take entries, with these
-  bool has_own_sines = false;  ///< sines that are written out, not the C library's
+      tables;  ///< of namespace detail: functions that take entries, with these
+  /// Of C: pointers to functions that the user defines, with the number of their arguments.
+  std::vector<std::pair<std::string, std::size_t>> user_functions;
+  std::map<std::string, support::CalledFunction> called;  ///< what the text may call of its user
+  bool has_own_sines = false;                             ///< sines that are written out, not the C library's
   // Where all of it lives.
   std::deque<Expression> expressions;
   std::deque<Statement> statements;

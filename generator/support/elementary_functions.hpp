@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "support/called_function.hpp"
 #include "support/check.hpp"
 #include "support/constant_array.hpp"
 
@@ -27,9 +28,11 @@ enum class Function : std::uint8_t {
   kMax,               ///< a < b ? b : a
   kWhereNegative,     ///< a < 0 ? b : 0, whatever b is where it is not taken, not a number too
   kWhereNotNegative,  ///< a < 0 ? 0 : b, likewise
-  kEntry  ///< entry a, rounded down, of the array whose number is b, a constant; that at the end where a is beyond it
+  kEntry,  ///< entry a, rounded down, of the array whose number is b, a constant; that at the end where a is beyond it
+  kArgument,  ///< arguments of a call: a behind those that b is made of, or behind none where b is no such
+  kCall  ///< of the function whose number is b, a constant, with the arguments a: see support/called_function.hpp
 };
-inline constexpr std::size_t kFunctions = 14;
+inline constexpr std::size_t kFunctions = 16;
 
 struct FunctionFacts {
   std::string_view name;  ///< as it is printed
@@ -51,7 +54,14 @@ inline constexpr std::array<FunctionFacts, kFunctions> kFunctionFacts = {{{"atan
                                                                           {"max", 2, true},
                                                                           {"where_negative", 2, true},
                                                                           {"where_not_negative", 2, true},
-                                                                          {"entry", 2, true}}};
+                                                                          {"entry", 2, true},
+                                                                          {"argument", 2},
+                                                                          {"call", 2}}};
+
+/// Stands for itself, whatever it is called with: a value of its own would be that of a stand-in.
+constexpr bool is_opaque(Function function) {
+  return function == Function::kArgument || function == Function::kCall;
+}
 
 constexpr const FunctionFacts& facts_of(Function function) {
   return kFunctionFacts[static_cast<std::size_t>(function)];
@@ -79,6 +89,20 @@ template <class Real>
 Real entry_of(const Real& a, const Real& b) {
   const std::vector<double>& values = array_of(whole_part(b, kLargestArrayNumber));
   return number_in<Real>(values[whole_part(a, static_cast<std::uint32_t>(values.size() - 1))]);
+}
+
+inline const CalledFunction& called_by(double number) {
+  return called_function(static_cast<std::uint32_t>(number));
+}
+
+/// Of what stands in for the function with the number b, or its derivative by s of order `more`.
+template <class Real>
+Real stand_in_of(const Real& s, const Real& b, std::size_t more) {
+  using std::sin, std::cos;
+  const CalledFunction& function = called_function(whole_part(b, kLargestArrayNumber));
+  const Real at = s + number_in<Real>(phase_of_called(function));
+  return stand_in<Real>(function, more, sin(at), cos(at), number_in<Real>(2),
+                        number_in<Real>(kShareOfEarlierArguments));
 }
 
 /// Of functions with kinks, for any type with <, fabs and floor that is made from doubles, and whose Real{} is zero.
@@ -124,6 +148,10 @@ Real value_of(Function function, const Real& a, const Real& b) {
       return tanh(a);
     case Function::kPower:
       return pow(a, b);
+    case Function::kArgument:
+      return a + number_in<Real>(kShareOfEarlierArguments) * b;
+    case Function::kCall:
+      return stand_in_of(a, b, 0);
     default:
       return value_with_kinks(function, a, b);
   }

@@ -50,13 +50,20 @@ struct Surface {
   Real value, by_a, by_b, by_aa, by_ab, by_bb;
 };
 
-/// atan2 or a power, a > 0.
+/// atan2; a power, a > 0; of calls that of what stands in for them, of numbers only.
 template <class Real>
 Surface<Real> surface_of(Function function, const Real& a, const Real& b, const Real& one) {
   const Real value = value_of(function, a, b);
   if (function == Function::kAtan2) {
     const Real square = a * a + b * b, p = a / square, q = b / square, twice = p * q + p * q;
     return {value, q, -p, -twice, p * p - q * q, twice};
+  }
+  if constexpr (requires { a < b; }) {
+    const Real zero = one - one;
+    if (function == Function::kArgument)
+      return {value, one, number_in<Real>(kShareOfEarlierArguments), zero, zero, zero};
+    if (function == Function::kCall)
+      return {value, stand_in_of(a, b, 1), zero, stand_in_of(a, b, 2), zero, zero};
   }
   if (function != Function::kPower) throw InternalError("no smooth function of two arguments");
   const Curve<Real> of_a = power_of(a, b, one);

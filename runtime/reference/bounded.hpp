@@ -89,6 +89,12 @@ struct Bounded {
         break;
       case Function::kEntry:
         break;
+      case Function::kArgument:
+        moved = a.scale + b.scale;
+        break;
+      case Function::kCall:
+        moved = a.scale;
+        break;
       case Function::kWhereNegative:
       case Function::kWhereNotNegative:
         return {result,

@@ -124,6 +124,7 @@ class TreeInterpreter::Frame {
       case Kind::kLanes:
       case Kind::kToReal:
       case Kind::kToAngle:
+      case Kind::kInvoke:
         break;
     }
     JD_CHECK(false, "an expression is no place");
@@ -151,6 +152,8 @@ class TreeInterpreter::Frame {
         for (std::size_t k = 0; k < e.operands.size(); ++k) all.entries[long(k)] = evaluate(e.operands[k]);
         return all;
       }
+      case Kind::kInvoke:
+        JD_CHECK(false, "functions of the user are not here");
       case Kind::kName:
       case Kind::kMember:
       case Kind::kEntry:

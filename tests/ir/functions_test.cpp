@@ -16,9 +16,11 @@ namespace {
 using support::Function;
 using support::ScaledReal;
 
+/// But calls of user code, which have lists of arguments.
 std::vector<Function> all_functions() {
   std::vector<Function> list;
-  for (std::size_t i = 0; i < support::kFunctions; ++i) list.push_back(static_cast<Function>(i));
+  for (std::size_t i = 0; i < support::kFunctions; ++i)
+    if (!support::is_opaque(static_cast<Function>(i))) list.push_back(static_cast<Function>(i));
   return list;
 }
 
@@ -80,6 +82,63 @@ TEST(Functions, HaveTheDerivativesOfDifferencesInSeventyDigits) {
       ++compared;
     }
     EXPECT_GT(compared, 30) << support::facts_of(function).name;
+  }
+}
+
+/// f(y0, 2, y0 y1), a call; its derivatives by y0 and y1, and that by y0 and then y1.
+Program with_slopes_of_a_call() {
+  Builder builder;
+  const Signed a = builder.leaf(LeafKind::kPosition, 0), b = builder.leaf(LeafKind::kPosition, 1),
+               one = builder.literal(1);
+  Signed list = builder.literal(0);
+  for (const Signed& argument : {a, builder.literal(2), builder.multiply(a, b)})
+    list = builder.function(Function::kArgument, argument, list);
+  const double number = support::number_of_called({"f", {"x", "y", "z"}});
+  const Signed value = builder.function(Function::kCall, list, builder.literal(number));
+  const JacobianEntries J = differentiate(builder, {value}, {{a, 0, one}, {b, 1, one}}, {});
+  const JacobianEntries H = differentiate(builder, {J.at({0, 0})}, {{b, 0, one}}, {});
+  builder.output("f", 0, -1, value);
+  builder.output("J", 0, 0, J.at({0, 0}));
+  builder.output("J", 0, 1, J.at({0, 1}));
+  builder.output("H", 0, 0, H.at({0, 0}));
+  return builder.finish("f");
+}
+
+TEST(Functions, CallsHaveThePartialDerivativesOfWhatStandsIn) {
+  const Program program = with_slopes_of_a_call();
+  const ScaledReal h(1e-20), x(0.7), y(-1.3);
+  const auto at_point = [&](const ScaledReal& a, const ScaledReal& b, std::size_t output) {
+    return at(program, a, b)[output];
+  };
+  const auto by_x = double((at_point(x + h, y, 0) - at_point(x - h, y, 0)) / (h + h)),
+             by_y = double((at_point(x, y + h, 0) - at_point(x, y - h, 0)) / (h + h)),
+             by_xy = double((at_point(x, y + h, 1) - at_point(x, y - h, 1)) / (h + h));
+  const std::vector<double> found = at(program, 0.7, -1.3);
+  EXPECT_NEAR(found[1], by_x, 1e-14);
+  EXPECT_NEAR(found[2], by_y, 1e-14);
+  EXPECT_NEAR(found[3], by_xy, 1e-14);
+  for (const double slope : {by_x, by_y, by_xy}) EXPECT_GT(std::fabs(slope), 1e-3);
+}
+
+TEST(Functions, StandInsDependOnEveryArgumentAndTheName) {
+  const auto value = [](const support::CalledFunction& function, const std::vector<double>& arguments) {
+    double list = 0;
+    for (const double argument : arguments) list = support::value_of(Function::kArgument, argument, list);
+    return support::value_of(Function::kCall, list, double(support::number_of_called(function)));
+  };
+  const support::CalledFunction f{"f", {"x", "y", "z"}}, g{"g", {"x", "y", "z"}};
+  const std::vector<double> point = {0.3, -0.8, 1.1};
+  EXPECT_GT(std::fabs(value(f, point) - value(g, point)), 1e-3);
+  EXPECT_GT(value(f, point), 1);
+  for (std::size_t k = 0; k < 3; ++k) {
+    std::vector<double> moved = point;
+    moved[k] += 0.1;
+    EXPECT_GT(std::fabs(value(f, moved) - value(f, point)), 1e-3) << k;
+    for (std::size_t other = 0; other < k; ++other) {
+      std::vector<double> exchanged = point;
+      std::swap(exchanged[k], exchanged[other]);
+      EXPECT_GT(std::fabs(value(f, exchanged) - value(f, point)), 1e-3) << k << " " << other;
+    }
   }
 }
 

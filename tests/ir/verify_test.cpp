@@ -59,6 +59,16 @@ TEST(Verify, NamesEntriesOfArraysThatAreNoneYet) {
             "p: %2 is an entry of an array that %1 decides, which is no literal");
 }
 
+TEST(Verify, NamesCallsThatAreNone) {
+  EXPECT_EQ(defect([](Program& p) { p.nodes[2].op = Op::kCall; }),
+            "p: %2 calls what %1 decides, which is no literal");
+  Program program = sound();
+  program.nodes[2].op = Op::kArgument;
+  EXPECT_EQ(defects(program, leaves()),
+            (std::vector<std::string>{"p: %2 is an argument behind %1, which is none",
+                                      "p: %3 takes arguments of a call for a value"}));
+}
+
 TEST(Verify, NamesWrongOutputs) {
   EXPECT_EQ(defect([](Program& p) { p.outputs[0].value = ValueId(9); }), "p: output 'r' is %9 of 6");
   EXPECT_EQ(defect([](Program& p) { p.outputs[1].row = 0; }), "p: output 'r' [0][-1] is given twice");

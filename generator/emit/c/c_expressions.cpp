@@ -69,6 +69,11 @@ CExpressions::Text CExpressions::print(const Expression& e) const {
     }
     case Kind::kToAngle:
       return {fmt::format("{}({})", names_.internal("angle_of_time"), whole(e, 0))};
+    case Kind::kInvoke: {
+      std::string arguments = whole(e, 0) + ".context";
+      for (std::size_t i = 1; i < e.operands.size(); ++i) arguments += ", " + whole(e, i);
+      return {fmt::format("{}.{}({})", whole(e, 0), e.name, arguments)};
+    }
     case Kind::kInputsAt:
       return {"*input"};
   }

@@ -5,6 +5,7 @@
 
 #include <set>
 
+#include "emit/called_functions.hpp"
 #include "emit/layout.hpp"
 #include "emit/parameters.hpp"
 #include "emit/sentences.hpp"
@@ -96,8 +97,29 @@ std::string linearization(const CNames& names, const programs::SceneFacts& scene
   return "";
 }
 
-std::string model_struct(const CNames& names, const ModelCode& code) {
-  std::string members;
+/// What the user defines, as pointers.
+std::string user_functions(const CNames& names, const std::vector<support::CalledFunction>& called) {
+  if (called.empty()) return "";
+  std::string members = "  void *context; /**< goes to each of them */\n";
+  for (const support::CalledFunction& function : called) {
+    std::string arguments;
+    for (const std::string& argument : function.arguments)
+      arguments += fmt::format(", {} {}", names.real(), argument);
+    members += wrapped(fmt::format("{} (*{})(void *context{});", names.real(), function.member(), arguments) +
+                           remark(remark_of(function)),
+                       2);
+  }
+  return structure(
+      c_doc(
+          fmt::format("What the model calls: set `functions` of a {} before anything but {} is called; that "
+                      "leaves it as it is. In SI units.",
+                      names.global("model"), names.global("set_model")),
+          0),
+      members, names.global("functions"));
+}
+
+std::string model_struct(const CNames& names, const ModelCode& code, bool has_functions) {
+  std::string members = has_functions ? fmt::format("  {} functions;\n", names.global("functions")) : "";
   for (const std::string& constant : code.constants)
     members += fmt::format("  {} {};\n", names.real(), constant);
   return structure(c_doc(fmt::format("What depends on the parameters only, computed once by {}. Changed "
@@ -203,7 +225,8 @@ std::string c_name_arrays(const CNames& names, const programs::SceneFacts& scene
 }
 
 std::string c_structs(const CNames& names, const ModelText& model, const ModelCode& code,
-                      const std::vector<FunctionInfo>& functions) {
+                      const std::vector<FunctionInfo>& functions,
+                      const std::vector<support::CalledFunction>& called) {
   const programs::SceneFacts& scene = model.facts;
   std::string text = parameters(names, scene);
   if (scene.clock)
@@ -212,7 +235,8 @@ std::string c_structs(const CNames& names, const ModelText& model, const ModelCo
   text +=
       structure(c_doc("Inputs: forces of the actuators (N m, N) and what the model's expressions take.", 0),
                 array(names, "u", scene.inputs.size()), names.global("input"));
-  text += outputs(names, scene) + linearization(names, scene, functions) + model_struct(names, code);
+  text += outputs(names, scene) + linearization(names, scene, functions) + user_functions(names, called) +
+          model_struct(names, code, !called.empty());
   return text + memories(names, code, functions);
 }
 

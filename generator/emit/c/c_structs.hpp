@@ -18,7 +18,8 @@ std::string c_name_arrays(const CNames& names, const programs::SceneFacts& scene
 
 /// Parameters, Time, State, Input, Outputs, Linearization, Model, memories of steps: those that the scene has.
 std::string c_structs(const CNames& names, const ModelText& model, const ModelCode& code,
-                      const std::vector<programs::FunctionInfo>& functions);
+                      const std::vector<programs::FunctionInfo>& functions,
+                      const std::vector<support::CalledFunction>& called);
 
 /// A struct that steps alone use.
 std::string c_internal_struct(const CNames& names, const Struct& of);

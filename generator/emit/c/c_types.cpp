@@ -48,6 +48,7 @@ CType CScope::type_of(const Expression& expression) const {
     case Kind::kReal:
     case Kind::kLanes:
     case Kind::kToReal:
+    case Kind::kInvoke:
       return {};
     case Kind::kInteger:
     case Kind::kPositionCount:

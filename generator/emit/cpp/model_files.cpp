@@ -9,12 +9,14 @@
 #include <string_view>
 #include <utility>
 
+#include "emit/called_functions.hpp"
 #include "emit/constant_tables.hpp"
 #include "emit/cpp/comments.hpp"
 #include "emit/cpp/cpp_tables.hpp"
 #include "emit/cpp/definitions.hpp"
 #include "emit/cpp/index_constants.hpp"
 #include "emit/cpp/structs.hpp"
+#include "emit/cpp/user_functions.hpp"
 #include "emit/function_names.hpp"
 #include "emit/layout.hpp"
 #include "emit/manifest.hpp"
@@ -42,6 +44,7 @@ class Emitter {
         module_(module),
         scene_(model.facts),
         code_(model_code(model.facts, functions, module)),
+        called_(called_in(module)),
         steps_(step_records(model.facts, functions, module)) {
     if (own_sines()) gather_sines();
   }
@@ -77,6 +80,10 @@ class Emitter {
         {"OUTPUTS_ALIAS", alias(!scene_.outputs.empty(), "Outputs")},
         {"LINEARIZATION", linearization_struct(functions_, scene_)},
         {"LINEARIZATION_ALIAS", alias(linearizes(functions_), "Linearization")},
+        {"USER_FUNCTIONS", user_functions(model_.name, called_)},
+        {"USER_FUNCTIONS_ALIAS", alias(!called_.empty(), "Functions")},
+        {"USER_FUNCTIONS_FILE",
+         called_.empty() ? "" : fmt::format("#include \"{}_functions.hpp\"\n", model_.name)},
         {"ARCTANGENT",
          if_any(ir::has_arctangent(module_), own_sines() ? "own_arctangent.in" : "arctangent.in")},
         {"FUNCTIONS", function_texts()},
@@ -222,7 +229,7 @@ class Emitter {
   }
 
   std::string constant_members() const {
-    std::string text;
+    std::string text = called_.empty() ? "" : "  Functions functions;\n";
     for (const std::string& name : code_.constants) text += fmt::format("  Real {};\n", name);
     return text.empty() ? "" : "\n" + text;
   }
@@ -289,6 +296,7 @@ class Emitter {
   const ir::Module& module_;
   const programs::SceneFacts& scene_;
   ModelCode code_;
+  std::vector<support::CalledFunction> called_;
   std::vector<StepRecord> steps_;
   bool has_blocks_ = false;  ///< angles are taken side by side
 };

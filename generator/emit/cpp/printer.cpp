@@ -69,6 +69,11 @@ class ExpressionPrinter {
         return {fmt::format("Real({})", whole(e, 0))};
       case Kind::kToAngle:
         return {fmt::format("detail::Angle<Real>({})", whole(e, 0))};
+      case Kind::kInvoke: {
+        std::string arguments;
+        for (std::size_t i = 1; i < e.operands.size(); ++i) arguments += (i == 1 ? "" : ", ") + whole(e, i);
+        return {fmt::format("{}.{}({})", whole(e, 0), e.name, arguments)};
+      }
       case Kind::kInputsAt:
         if (!place_.samples_inputs) return {"input"};
         return {fmt::format("{}input_at(input, {})", place_.in_detail ? "" : "detail::", whole(e, 0))};

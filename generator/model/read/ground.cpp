@@ -39,7 +39,9 @@ Ground::Ground(const TomlTable& table, std::string hint_for_normal)
       o_(table.vector("point", needed::kLength, {0.0, 0.0, 0.0})),
       a_(constant(slide_directions(n_)[0])),
       b_(constant(slide_directions(n_)[1])) {
-  const Expression written = table.function("height", needed::kLength, scope_of_height());
+  Expression written = table.function("height", needed::kLength, scope_of_height());
+  refuse_calls(table, "height", written);
+  if (written.calls(support::Function::kCall)) written = 0.0;
   const Vector3 n = constant(n_);
   const Expression level = dot(n, o_);
   Vector3 place;

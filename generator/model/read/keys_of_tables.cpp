@@ -48,6 +48,9 @@ KeySection function_section() {
            {"value", "expression", "unit", kRequired,
             "of the arguments, parameters, tables and functions before it; what moves is an argument"},
            {"unit", "text", "", "none", "an SI unit"},
+           {"external", "true, false", "", "false",
+            "emitted code calls a function of yours in its place: "
+            "[Functions of your own](expressions.md#functions-of-your-own)"},
            {"description", "text", "", "empty", ""}},
           R"([[function]]
 name = "grip"
@@ -56,6 +59,6 @@ argument_units = ["1", "N"]
 unit = "N"
 value = "0.9*sin(1.4*atan(12*slip))*load"
 )"};
-  }
+}
 
 }  // namespace jourdain::model

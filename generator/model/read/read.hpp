@@ -35,6 +35,8 @@ struct ReadOptions {
   bool mimic = true;                            ///< URDF, SDF: joints follow others, as <mimic> says
   double snap = kDefaultSnap;                   ///< rad, see model/snap.hpp; 0: directions as they are read
   const ImportChain* importing = nullptr;  ///< the files that import this one; none: it is read for itself
+  bool external = false;    ///< TOML: functions that are 'external' stay calls, instead of their expressions
+  std::string prefix = {};  ///< of the names of such calls: that of the file's import
   std::map<std::string, double> parameters = {};  ///< TOML: other default values than the file's, SI units
 };
 

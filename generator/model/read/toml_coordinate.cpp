@@ -67,11 +67,18 @@ const Scope& time_scope() {
   return scope;
 }
 
+void refuse_calls(const TomlTable& table, std::string_view key, const Expression& function) {
+  if (function.calls(support::Function::kCall))
+    table.error(key, fmt::format("{} calls an external function", table.quoted(key)),
+                "it is differentiated here: forces, rates of states and outputs may");
+}
+
 void refuse_kinks(const TomlTable& table, std::string_view key, const Expression& function) {
   if (function.has_kinks())
     table.error(key,
                 fmt::format("{} may have a kink, where velocities or accelerations jump", table.quoted(key)),
                 "it is differentiated twice; smooth_step, smooth_max and tanh have none");
+  refuse_calls(table, key, function);
 }
 
 Expression read_time_function(TomlFile& file, const TomlTable& table, std::string_view key,

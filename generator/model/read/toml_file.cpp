@@ -156,6 +156,9 @@ Expression TomlFile::parsed(const toml::value<std::string>& text, const Place& p
                           "a part of it has no finite value at the parameters' default values");
     return in_si_units;
   }
+  if (expression.calls(support::Function::kCall))
+    return number_error(range(text.source()), "an external function is called with nothing that moves",
+                        "a number of the model does not depend on code that is not here");
   const double at_defaults = value(in_si_units);
   if (!std::isfinite(at_defaults))
     return number_error(range(text.source()),

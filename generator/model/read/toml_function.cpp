@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "model/expression_functions.hpp"
+#include "model/names.hpp"
 #include "model/read/keys.hpp"
 #include "model/read/toml_callable.hpp"
 #include "model/read/toml_names.hpp"
@@ -27,8 +28,9 @@ namespace {
 
 class FunctionReader {
  public:
-  FunctionReader(TomlFile& file, const toml::table& node)
+  FunctionReader(TomlFile& file, const toml::table& node, const ReadOptions& options)
       : file_(file),
+        options_(options),
         keys_(file, node, fmt::format("function '{}'", shown(file.text_or(node, "name"))),
               file.range(node.source()), keys_of("function")) {}
 
@@ -49,6 +51,12 @@ class FunctionReader {
     }
     if (keys_.has("argument_units")) read_units();
     Expression value = keys_.function("value", {{unit}}, scope());
+    const bool is_external = read_external();
+    if (is_external) check_external(value);
+    if (is_external && options_.external) {
+      function_.value = call();
+      return std::move(function_);
+    }
     function_.value = [value = std::move(value)](std::span<const Expression> arguments) {
       return with_arguments(value, arguments);
     };
@@ -56,6 +64,55 @@ class FunctionReader {
   }
 
  private:
+  bool read_external() {
+    if (!keys_.has("external")) return false;
+    const toml::value<bool>* external = keys_.find("external")->as_boolean();
+    if (!external)
+      keys_.error("external", fmt::format("{} must be true or false, not {}", keys_.quoted("external"),
+                                          type_in_words(*keys_.find("external"))));
+    return external && external->get();
+  }
+
+  /// Its names become those of members, those of its derivatives too.
+  void check_external(const Expression& value) {
+    for (const Expression::Node& node : value.nodes())
+      if (node.op == Expression::Op::kParameter)
+        return keys_.error("value", fmt::format("'value' of external {} has parameters", keys_.what()),
+                           "what it takes are its arguments");
+    for (const Callable& other : file_.callables())
+      if (names_a_slope(function_, other.name) || names_a_slope(other, function_.name))
+        keys_.error(
+            "name",
+            fmt::format("{} has the name of a partial derivative, or '{}' has", keys_.what(), other.name),
+            "that of 'grip' by 'slip' is called grip_slip");
+    for (const Callable::Argument& argument : function_.arguments)
+      if (is_reserved(argument.name))
+        keys_.error("arguments", fmt::format("'{}' is a word of C++", argument.name));
+    if (is_reserved(function_.name) || function_.name == "context")
+      keys_.error("name", fmt::format("{} is external, and '{}' has a meaning in emitted code", keys_.what(),
+                                      function_.name));
+  }
+
+  static bool names_a_slope(const Callable& function, const std::string& name) {
+    return std::any_of(function.arguments.begin(), function.arguments.end(),
+                       [&](const Callable::Argument& argument) {
+                         const std::string slope = function.name + "_" + argument.name;
+                         return name == slope || name.starts_with(slope + "_");
+                       });
+  }
+
+  std::function<Expression(std::span<const Expression>)> call() const {
+    support::CalledFunction called{options_.prefix + function_.name, {}};
+    for (const Callable::Argument& argument : function_.arguments) called.arguments.push_back(argument.name);
+    const double number = support::number_of_called(called);
+    return [number](std::span<const Expression> arguments) {
+      Expression list = 0.0;
+      for (const Expression& argument : arguments)
+        list = Expression::function(support::Function::kArgument, argument, list);
+      return Expression::function(support::Function::kCall, list, number);
+    };
+  }
+
   std::string read_unit() {
     const std::optional<Unit> unit = keys_.unit("unit");
     if (!keys_.has("unit") || !unit) return "";
@@ -133,33 +190,39 @@ class FunctionReader {
     if (units->size() != function_.arguments.size())
       return keys_.error("argument_units", fmt::format("{} has {} arguments and {} units", keys_.what(),
                                                        function_.arguments.size(), units->size()));
+    units_.resize(units->size());
     for (std::size_t i = 0; i < units->size(); ++i) {
       const Text& text = (*units)[i];
       const std::optional<Unit> unit = file_.unit(*text.node);
       if (unit && unit->factor != 1)
         file_.error(text.where, not_si(fmt::format("'{}'", shown(text.text))), si_hint(*unit));
-      if (unit && unit->factor == 1) function_.arguments[i].measure = Measure::parameter(text.text);
+      if (!unit || unit->factor != 1) continue;
+      units_[i] = text.text;
+      function_.arguments[i].measure = Measure::parameter(text.text);
     }
   }
 
   Scope scope() const {
     Scope scope;
     for (std::size_t i = 0; i < function_.arguments.size(); ++i)
-      scope.push_back(
-          {function_.arguments[i].name, {Variable::Kind::kArgument, 0, i}, function_.arguments[i].measure});
+      scope.push_back({function_.arguments[i].name,
+                       {Variable::Kind::kArgument, 0, i},
+                       units_.empty() ? Measure::open() : Measure::variable({{units_[i]}})});
     return scope;
   }
 
   TomlFile& file_;
+  const ReadOptions& options_;
   TomlTable keys_;
   Callable function_;
+  std::vector<std::string> units_;  ///< of the arguments; none where none are given
 };
 
 }  // namespace
 
-void read_functions(TomlFile& file, const TomlTables& section) {
+void read_functions(TomlFile& file, const TomlTables& section, const ReadOptions& options) {
   for (const toml::node& node : section)
-    if (std::optional<Callable> function = FunctionReader(file, *node.as_table()).read())
+    if (std::optional<Callable> function = FunctionReader(file, *node.as_table(), options).read())
       file.declare(std::move(*function));
 }
 

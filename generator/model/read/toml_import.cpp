@@ -97,6 +97,8 @@ class ImportReader {
     options.damping = options_.damping;
     options.friction = options_.friction;
     options.mimic = options_.mimic;
+    options.external = options_.external;
+    options.prefix = options_.prefix + prefix_;
     if (name_.ends_with(".toml")) {
       for (const char* key : {"root", "damping"})
         if (table_.has(key))

@@ -49,7 +49,7 @@ class TomlReader {
     if (imports.size() < importing.size()) return mechanism;
     check_loop_options(imports);
     read_lookup_tables(file_, repeats_.tables("table"), chain_);
-    read_functions(file_, repeats_.tables("function"));
+    read_functions(file_, repeats_.tables("function"), options_);
     read_bodies(file_, repeats_.tables("body"), mechanism);
     read_joints(file_, repeats_.tables("joint"), mechanism);
     read_overrides(file_, repeats_.tables("override"), mechanism);

@@ -20,8 +20,9 @@ void read_parameters(TomlFile& file, const toml::table& section, Mechanism& mech
 
 /// All [[table]] tables: `file` has declared them then.
 void read_lookup_tables(TomlFile& file, const TomlTables& section, const ImportChain& chain);
-/// All [[function]] tables, which may call tables and functions before them: `file` has declared them then.
-void read_functions(TomlFile& file, const TomlTables& section);
+/// All [[function]] tables, which may call tables and functions before them: `file` has declared them then. `options`
+/// say whether external ones stay calls.
+void read_functions(TomlFile& file, const TomlTables& section, const ReadOptions& options);
 
 // Each of the following appends to what `mechanism` has, which may be imported.
 
@@ -47,7 +48,9 @@ CoordinateNeeds coordinate_needs(const Mechanism& mechanism, const std::optional
 void read_coordinate(TomlFile& file, const TomlTable& table, const CoordinateNeeds& needs,
                      Coordinate& coordinate);
 
-/// An error where `function`, which is differentiated twice, may have a kink.
+/// An error where `function`, which is differentiated twice, may have a kink or calls a function of the user.
+/// The latter alone.
+void refuse_calls(const TomlTable& table, std::string_view key, const Expression& function);
 void refuse_kinks(const TomlTable& table, std::string_view key, const Expression& function);
 
 /// A function of time, with finite first and second derivatives at t = 0 and the parameters' default values;

@@ -1,0 +1,35 @@
+#include "emit/called_functions.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "support/elementary_functions.hpp"
+
+namespace jourdain::emit {
+
+std::vector<support::CalledFunction> called_in(const ir::Module& module) {
+  std::map<std::string, support::CalledFunction> found;
+  const auto gather = [&found](const ir::Program& program) {
+    for (const ir::Node& node : program.nodes)
+      if (node.op == ir::Op::kCall) {
+        const support::CalledFunction& called = support::called_by(program[node.b].literal);
+        found.emplace(called.member(), called);
+      }
+  };
+  gather(module.constants);
+  for (const ir::Program& program : module.functions) gather(program);
+  std::vector<support::CalledFunction> list;
+  for (auto& [name, called] : found) list.push_back(std::move(called));
+  return list;
+}
+
+std::string remark_of(const support::CalledFunction& function) {
+  if (function.by.empty()) return "";
+  std::string by;
+  for (const std::size_t argument : function.by)
+    by += (by.empty() ? "" : " and ") + function.arguments[argument];
+  return fmt::format("partial derivative of {} by {}", function.name, by);
+}
+
+}  // namespace jourdain::emit
