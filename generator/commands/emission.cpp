@@ -10,12 +10,10 @@
 #include <algorithm>
 #include <array>
 #include <string_view>
-#include <type_traits>
 
 #include "commands/kinematic_choice.hpp"
 #include "commands/memory_checks.hpp"
 #include "commands/method_names.hpp"
-#include "model/read/members.hpp"
 
 namespace jourdain::commands {
 
@@ -54,20 +52,6 @@ void EmissionArguments::add_to(CLI::App& command) {
   command.add_flag("--no-lanes", no_lanes, kNoLanesHelp);
   command.add_flag("--clock", clock, "keep the time in State, though nothing depends on it");
 }
-
-namespace {
-
-bool calls_user_code(model::Mechanism mechanism) {
-  bool found = false;
-  const auto visit = [&found]<class Part>(const Part& part) {
-    if constexpr (std::is_same_v<Part, model::Expression>)
-      found = found || part.calls(support::Function::kCall);
-  };
-  model::Members(visit).of(mechanism);
-  return found;
-}
-
-}  // namespace
 
 std::string EmissionArguments::apply(LoadedMechanism& loaded) const {
   if (std::string conflict = check_derivative_terms(functions, loaded.options.derivative_terms);

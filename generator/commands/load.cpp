@@ -13,6 +13,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "commands/content_hash.hpp"
@@ -20,6 +21,7 @@
 #include "loops/plan/plan.hpp"
 #include "loops/plan/plan_text.hpp"
 #include "model/names.hpp"
+#include "model/read/members.hpp"
 #include "support/files.hpp"
 #include "validate/snapping.hpp"
 
@@ -112,6 +114,9 @@ std::optional<LoadedMechanism> load(const ModelArguments& arguments, External ex
   std::optional<model::Mechanism> mechanism = model::read_mechanism(diagnostics, read);
   if (mechanism) check_inertia(*mechanism, diagnostics);
   if (mechanism) check_start(*mechanism, diagnostics);
+  if (mechanism && diagnostics.has_errors() && calls_user_code(*mechanism))
+    diagnostics.note({},
+                     "external functions are taken to be within their 'range', [1, 3] unless told otherwise");
   if (mechanism && !diagnostics.has_errors())
     if (const std::string sentence = validate::snapping_sentence(*mechanism); !sentence.empty())
       diagnostics.note({}, sentence);
@@ -136,6 +141,16 @@ std::optional<LoadedMechanism> load(const ModelArguments& arguments, External ex
     fmt::print(stderr, "note: model '{}' becomes namespace '{}' (--name chooses another)\n",
                loaded.mechanism.name, loaded.options.name);
   return loaded;
+}
+
+bool calls_user_code(model::Mechanism mechanism) {
+  bool found = false;
+  const auto visit = [&found]<class Part>(const Part& part) {
+    if constexpr (std::is_same_v<Part, model::Expression>)
+      found = found || part.calls(support::Function::kCall);
+  };
+  model::Members(visit).of(mechanism);
+  return found;
 }
 
 std::size_t LoadedMechanism::freedom() const {

@@ -45,9 +45,12 @@ struct LoadedMechanism {
   const loops::LoopPlan* plan() const { return options.loops ? &*options.loops : nullptr; }
 };
 
-/// What functions that are 'external' are: calls of code that is not here, or their expressions, as all commands need that
-/// run a model.
+/// What functions that are 'external' are: calls of code that is not here, or their expressions, as all commands need
+/// that run a model.
 enum class External { kCalled, kWrittenOut };
+
+/// Has calls of external functions.
+bool calls_user_code(model::Mechanism mechanism);
 
 /// "1 degree of freedom".
 std::string freedom_text(const LoadedMechanism& loaded);

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "emit/bundles.hpp"
+#include "emit/called_functions.hpp"
 
 namespace jourdain::emit {
 
@@ -53,10 +54,9 @@ class BodyBuilder {
         result_(result),
         stored_(stored),
         bundles_(program),
-        uses_(ir::use_counts(program)),
+        uses_(uses_in_text(program)),
         is_angle_(angles_of_time(program)),
         name_(program.nodes.size()) {
-    count_shared_arguments();
     for (std::size_t i = 0; i < program.nodes.size(); ++i)
       if (const auto it = stored.find(ValueId(i)); it != stored.end())
         name_[i] = it->second;
@@ -89,16 +89,6 @@ class BodyBuilder {
   }
 
  private:
-  /// A list of arguments is written into each call that takes it.
-  void count_shared_arguments() {
-    for (std::size_t i = program_.nodes.size(); i-- > 0;) {
-      const Node& node = program_.nodes[i];
-      if (node.op != Op::kArgument || uses_[i] < 2) continue;
-      uses_[node.a.value] += uses_[i] - 1;
-      uses_[node.b.value] += uses_[i] - 1;
-    }
-  }
-
   bool is_statement(std::size_t i) const {
     const Node& node = program_.nodes[i];
     if (ir::operand_count(node.op) == 0 || node.op == Op::kArgument) return false;
@@ -138,7 +128,7 @@ class BodyBuilder {
 
   /// One number for all lanes.
   static bool is_same(const std::vector<ValueId>& values) {
-    return std::all_of(values.begin(), values.end(), [&](ValueId value) { return value == values[0]; });
+    return std::count(values.begin(), values.end(), values[0]) == std::ssize(values);
   }
 
   bool is_gathered(const std::vector<ValueId>& values) const {

@@ -32,4 +32,15 @@ std::string remark_of(const support::CalledFunction& function) {
   return fmt::format("partial derivative of {} by {}", function.name, by);
 }
 
+std::vector<std::size_t> uses_in_text(const ir::Program& program) {
+  std::vector<std::size_t> uses = ir::use_counts(program);
+  for (std::size_t i = program.nodes.size(); i-- > 0;) {
+    const ir::Node& node = program.nodes[i];
+    if (node.op != ir::Op::kArgument || uses[i] < 2) continue;
+    uses[node.a.value] += uses[i] - 1;
+    uses[node.b.value] += uses[i] - 1;
+  }
+  return uses;
+}
+
 }  // namespace jourdain::emit

@@ -1,6 +1,7 @@
 #include "support/called_function.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <map>
 #include <mutex>
 
@@ -30,6 +31,9 @@ std::uint64_t hash_of(const CalledFunction& function) {
   take(function.member());
   take(function.name);
   for (const std::string& argument : function.arguments) take(argument);
+  for (const double end : {function.low, function.high})
+    for (int byte = 0; byte < 8; ++byte)
+      hash = (hash ^ ((std::bit_cast<std::uint64_t>(end) >> (8 * byte)) & 0xff)) * 1099511628211u;
   return hash;
 }
 

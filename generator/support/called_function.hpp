@@ -13,6 +13,7 @@ namespace jourdain::support {
 struct CalledFunction {
   std::string name;
   std::vector<std::string> arguments;
+  double low = 1, high = 3;          ///< what stands in for the function is between these
   std::vector<std::size_t> by = {};  ///< the arguments that it is differentiated with respect to, rising
 
   /// "grip", "grip_slip", "grip_slip_load": as code that defines it is called.
@@ -31,24 +32,30 @@ const CalledFunction& called_function(std::uint32_t number);
 std::uint32_t number_of_slope(std::uint32_t number, std::size_t argument);
 
 // What stands in for such functions wherever programs are compared: smooth ones that depend on all arguments and differ
-// from each other. Arguments x0, x1, … xn become s = xn + kShare (… + kShare (x1 + kShare x0)); f = 2 + sin(s + phase),
-// and partial derivatives are its.
+// from each other. Arguments x0, x1, … xn become s = xn + kShare (… + kShare (x1 + kShare x0)); f lies between low and
+// high as sin(s + phase) between −1 and 1, and partial derivatives are its.
 
 inline constexpr double kShareOfEarlierArguments = 0.625;
 
 /// Of the sine in the function's stand-in.
 double phase_of_called(const CalledFunction& function);
 
-/// A derivative of the stand-in by s, of order `more`, at s + phase with these sine and cosine.
-template <class Real>
+/// A derivative of the stand-in by s, of order `more`, at s + phase with these sine and cosine. `number` makes a Real
+/// of a double.
+template <class Real, class Number>
 Real stand_in(const CalledFunction& function, std::size_t more, const Real& sine, const Real& cosine,
-              const Real& two, const Real& share) {
+              const Number& number) {
+  const double half = 0.5 * function.high - 0.5 * function.low;
   const std::size_t order = function.by.size() + more;
-  Real value = order % 4 == 0 ? sine : order % 4 == 1 ? cosine : order % 4 == 2 ? Real(-sine) : Real(-cosine);
-  if (order == 0) return Real(two + value);
+  const Real wave = order % 4 == 0   ? sine
+                    : order % 4 == 1 ? cosine
+                    : order % 4 == 2 ? Real(-sine)
+                                     : Real(-cosine);
+  Real value = number(half) * wave;
+  if (order == 0) return Real(number(function.low + half) + value);
   for (const std::size_t argument : function.by)
     for (std::size_t later = argument + 1; later < function.arguments.size(); ++later)
-      value = Real(value * share);
+      value = Real(value * number(kShareOfEarlierArguments));
   return value;
 }
 

@@ -101,8 +101,7 @@ Real stand_in_of(const Real& s, const Real& b, std::size_t more) {
   using std::sin, std::cos;
   const CalledFunction& function = called_function(whole_part(b, kLargestArrayNumber));
   const Real at = s + number_in<Real>(phase_of_called(function));
-  return stand_in<Real>(function, more, sin(at), cos(at), number_in<Real>(2),
-                        number_in<Real>(kShareOfEarlierArguments));
+  return stand_in<Real>(function, more, sin(at), cos(at), [](double x) { return number_in<Real>(x); });
 }
 
 /// Of functions with kinks, for any type with <, fabs and floor that is made from doubles, and whose Real{} is zero.

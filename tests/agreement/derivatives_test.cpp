@@ -202,6 +202,10 @@ TEST(Derivatives, OfLawsAgreeWithDifferencesInSixtyDigits) {
   expect_derivatives(random_scene_with_laws, kScenesWithLaws);
 }
 
+TEST(Derivatives, OfCallsOfTheUserAgreeWithDifferencesInSixtyDigits) {
+  expect_derivatives(random_scene_with_calls, kScenesWithLaws);
+}
+
 TEST(Derivatives, OfAppliedForcesAreThoseOfTheEquationsWithoutWeightAndInertia) {
   const model::Mechanism mechanism = read_model(model_path("flyball_governor.toml"));
   const ir::Module all = derivative_module(mechanism),

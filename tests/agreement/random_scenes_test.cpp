@@ -22,7 +22,8 @@ namespace {
 
 using Vector = reference::VectorX<long double>;
 
-const std::uint64_t kScenes = draws_all_cases() ? 520 : cases(260), kScenesWithLaws = cases(500);
+const std::uint64_t kScenes = draws_all_cases() ? 520 : cases(260), kScenesWithLaws = cases(500),
+                    kScenesWithCalls = cases(120);
 // As for random trees: backward error in double, forward error over cond(M), entries of their term sum.
 constexpr double kBackward = 1e-13, kForward = 1e-14, kEntries = 1e-12;
 // Laws have a condition of their own: what rounds their arguments moves a force by its slope.
@@ -226,6 +227,10 @@ TEST(RandomScenes, WithLawsOfAllFunctionsAgree) {
   EXPECT_GE(expect_agreement(random_scene_with_laws, kScenesWithLaws, kForwardWithLaws), kScenesWithLaws / 8);
 }
 
+TEST(RandomScenes, WithCallsOfTheUserAgree) {
+  expect_agreement(random_scene_with_calls, kScenesWithCalls, kForwardWithLaws);
+}
+
 TEST(RandomScenes, GiveTheSameOutputsWithEverySimplificationOff) {
   for (std::uint64_t seed = 0; seed < cases(80); ++seed) {
     const model::Mechanism mechanism = random_scene(seed);
@@ -249,7 +254,7 @@ TEST(RandomScenes, GiveTheSameOutputsWithEverySimplificationOff) {
 
 TEST(RandomScenes, AreAcceptedByTheCompiler) {
   for (std::uint64_t seed = 0; seed < cases(40); ++seed) {
-    for (const Draw draw : {random_scene, random_scene_with_laws}) {
+    for (const Draw draw : {random_scene, random_scene_with_laws, random_scene_with_calls}) {
       const CompiledModel compiled = compile(draw(seed), {});
       EXPECT_TRUE(compiled.verdict.accepted()) << seed << ": " << compiled.verdict.failures.front();
     }

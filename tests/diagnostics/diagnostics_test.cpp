@@ -30,6 +30,7 @@ ReadOptions options_in(const std::string& text) {
     if (word == "--no-snap") options.snap = 0;
     if (word == "--no-damping") options.damping = false;
     if (word == "--friction") options.friction = true;
+    if (word == "--external") options.external = true;  // as compile and check read
     if (word == "--no-mimic") options.mimic = false;
     if (word == "--lock") options.locked_joints.emplace_back(words >> word ? word : "");
     if (word == "--root")

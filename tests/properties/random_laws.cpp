@@ -175,4 +175,32 @@ class Laws {
 
 model::Mechanism random_scene_with_laws(std::uint64_t seed) { return Laws(seed).run(); }
 
+model::Mechanism random_scene_with_calls(std::uint64_t seed) {
+  model::Mechanism mechanism = random_scene_with_laws(seed);
+  Random random(seed);
+  const Expression time = variable(Variable::Kind::kTime);
+  const auto call = [&](Expression& expression, const Expression& other) {
+    if (expression.has_no_variable()) return;
+    std::vector<Expression> arguments = {expression, Expression(random.uniform(-1, 1)), other};
+    std::swap(arguments[0], arguments[random.below(3)]);
+    arguments.resize(arguments[0].has_no_variable() ? 3 : 1 + random.below(3));
+    support::CalledFunction called{
+        fmt::format("{}{}", random.chance(0.5) ? "f" : "g", arguments.size()), {}, -1, 1};
+    for (std::size_t k = 0; k < arguments.size(); ++k)
+      called.arguments.push_back(std::string(1, char('a' + k)));
+    Expression list(0.0);
+    for (const Expression& argument : arguments)
+      list = Expression::function(Function::kArgument, argument, list);
+    const double number = support::number_of_called(called);
+    expression = Expression::function(Function::kCall, list, Expression(number));
+  };
+  for (model::CoordinateForce& force : mechanism.coordinate_forces) call(force.force, time);
+  for (model::Spring& spring : mechanism.springs)
+    if (!spring.potential) call(spring.law, variable(Variable::Kind::kArgument));
+  for (model::StateVariable& state : mechanism.states) call(state.rate, time);
+  for (model::Load& load : mechanism.loads)
+    for (std::size_t k = 0; k < 3; ++k) call(load.force[k], time);
+  return mechanism;
+}
+
 }  // namespace jourdain::tests

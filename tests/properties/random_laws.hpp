@@ -12,4 +12,7 @@ namespace jourdain::tests {
 /// back.
 model::Mechanism random_scene_with_laws(std::uint64_t seed);
 
+/// Of it with most of its laws as arguments of functions that the user defines, of one to three arguments.
+model::Mechanism random_scene_with_calls(std::uint64_t seed);
+
 }  // namespace jourdain::tests

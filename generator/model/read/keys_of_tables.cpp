@@ -51,6 +51,8 @@ KeySection function_section() {
            {"external", "true, false", "", "false",
             "emitted code calls a function of yours in its place: "
             "[Functions of your own](expressions.md#functions-of-your-own)"},
+           {"range", "2 constants", "unit", "[1, 3]",
+            "of an external one: its values where compiled code is compared, which are not those of 'value'"},
            {"description", "text", "", "empty", ""}},
           R"([[function]]
 name = "grip"

@@ -43,20 +43,22 @@ class FunctionReader {
     keys_.text("description");
     const std::string unit = read_unit();
     if (!keys_.has("arguments")) keys_.missing("arguments", "the names that 'value' uses");
-    const bool is_known = keys_.has("arguments") && read_arguments();
+    const bool has_arguments = keys_.has("arguments") && read_arguments();
     if (!keys_.has("value")) keys_.missing("value", "an expression of the arguments");
-    if (!is_known || function_.name.empty()) {
-      file_.complete().numbers = false;
-      return {};
-    }
+    if (!has_arguments) file_.complete().numbers = false;
+    if (function_.arguments.empty() || function_.name.empty()) return {};
     if (keys_.has("argument_units")) read_units();
-    Expression value = keys_.function("value", {{unit}}, scope());
+    Expression value = has_arguments ? keys_.function("value", {{unit}}, scope()) : 0.0;
     const bool is_external = read_external();
     if (is_external) check_external(value);
-    if (is_external && options_.external) {
+    read_range(unit, is_external);
+    if (is_external && options_.external && has_arguments) {
       function_.value = call();
       return std::move(function_);
     }
+    if (is_external && has_arguments)
+      file_.diagnostics().note(
+          function_.where, fmt::format("{} is external: its expression stands for it here", keys_.what()));
     function_.value = [value = std::move(value)](std::span<const Expression> arguments) {
       return with_arguments(value, arguments);
     };
@@ -73,6 +75,17 @@ class FunctionReader {
     return external && external->get();
   }
 
+  /// That of what stands in for an external function.
+  void read_range(const std::string& unit, bool is_external) {
+    if (!keys_.has("range")) return;
+    if (!is_external) return keys_.error("range", fmt::format("{} is not external", keys_.what()));
+    const std::optional<std::array<double, 2>> range = keys_.constant_pair("range", {{unit}}, {});
+    if (range && !((*range)[0] < (*range)[1]))
+      keys_.error("range", fmt::format("{} does not rise", keys_.quoted("range")));
+    else if (range)
+      range_ = *range;
+  }
+
   /// Its names become those of members, those of its derivatives too.
   void check_external(const Expression& value) {
     for (const Expression::Node& node : value.nodes())
@@ -85,12 +98,16 @@ class FunctionReader {
             "name",
             fmt::format("{} has the name of a partial derivative, or '{}' has", keys_.what(), other.name),
             "that of 'grip' by 'slip' is called grip_slip");
-    for (const Callable::Argument& argument : function_.arguments)
-      if (is_reserved(argument.name))
-        keys_.error("arguments", fmt::format("'{}' is a word of C++", argument.name));
-    if (is_reserved(function_.name) || function_.name == "context")
-      keys_.error("name", fmt::format("{} is external, and '{}' has a meaning in emitted code", keys_.what(),
-                                      function_.name));
+    const auto has_meaning = [](const std::string& name) {
+      return is_reserved(name) || name == "context" || name == "Functions";
+    };
+    std::vector<std::string> names = {function_.name};
+    for (const Callable::Argument& argument : function_.arguments) names.push_back(argument.name);
+    for (const std::string& name : names)
+      if (has_meaning(name))
+        keys_.error(
+            name == function_.name ? "name" : "arguments",
+            fmt::format("{} is external, and '{}' has a meaning in emitted code", keys_.what(), name));
   }
 
   static bool names_a_slope(const Callable& function, const std::string& name) {
@@ -102,7 +119,7 @@ class FunctionReader {
   }
 
   std::function<Expression(std::span<const Expression>)> call() const {
-    support::CalledFunction called{options_.prefix + function_.name, {}};
+    support::CalledFunction called{options_.prefix + function_.name, {}, range_[0], range_[1]};
     for (const Callable::Argument& argument : function_.arguments) called.arguments.push_back(argument.name);
     const double number = support::number_of_called(called);
     return [number](std::span<const Expression> arguments) {
@@ -136,9 +153,9 @@ class FunctionReader {
                   "[[signal]] names an expression");
       return false;
     }
-    for (const Text& name : *names)
-      if (!take_argument(name)) return false;
-    return true;
+    const std::size_t mark = file_.error_count();
+    for (const Text& name : *names) take_argument(name);
+    return file_.error_count() == mark;
   }
 
   struct Text {
@@ -163,8 +180,7 @@ class FunctionReader {
     return result;
   }
 
-  bool take_argument(const Text& name) {
-    const std::size_t mark = file_.error_count();
+  void take_argument(const Text& name) {
     check_identifier(file_, name.where, "argument", name.text);
     if (is_expression_word(name.text) || name.text == time_scope().front().name)
       file_.error(name.where, fmt::format("argument '{}' would hide what '{}' means in expressions",
@@ -180,7 +196,6 @@ class FunctionReader {
       if (argument.name == name.text)
         file_.error(name.where, fmt::format("{} has two arguments '{}'", keys_.what(), shown(name.text)));
     function_.arguments.push_back({name.text, Measure::open()});
-    return file_.error_count() == mark;
   }
 
   /// Without effect after a diagnostic.
@@ -215,6 +230,7 @@ class FunctionReader {
   const ReadOptions& options_;
   TomlTable keys_;
   Callable function_;
+  std::array<double, 2> range_ = {1, 3};
   std::vector<std::string> units_;  ///< of the arguments; none where none are given
 };
 
