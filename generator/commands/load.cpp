@@ -65,6 +65,28 @@ std::string check_name(const std::string& name) {
   return "";
 }
 
+/// Numbers of the external functions that are called.
+std::set<std::uint32_t> called_functions(model::Mechanism mechanism) {
+  std::set<std::uint32_t> found;
+  const auto visit = [&found]<class Part>(const Part& part) {
+    if constexpr (std::is_same_v<Part, model::Expression>)
+      for (const model::Expression::Node& node : part.nodes())
+        if (node.op == model::Expression::Op::kFunction && node.function == support::Function::kCall)
+          found.insert(static_cast<std::uint32_t>(part.nodes()[node.right].value));
+  };
+  model::Members(visit).of(mechanism);
+  return found;
+}
+
+/// Files that are imported know nothing of each other's functions, which are members of one struct.
+void check_called(const model::Mechanism& mechanism, support::Diagnostics& diagnostics) {
+  std::set<std::string> names;
+  for (const std::uint32_t number : called_functions(mechanism))
+    if (const std::string name = support::called_function(number).name; !names.insert(name).second)
+      diagnostics.error({}, fmt::format("two external functions are called '{}', and differ", name),
+                        "a 'prefix' of their imports tells them apart");
+}
+
 void refuse_warnings(support::Diagnostics& diagnostics) {
   const auto is_warning = [](const support::Diagnostic& d) {
     return d.severity == support::Severity::kWarning;
@@ -113,6 +135,7 @@ std::optional<LoadedMechanism> load(const ModelArguments& arguments, External ex
     read.root = arguments.root == "free" ? model::RootJoint::kFree : model::RootJoint::kFixed;
   std::optional<model::Mechanism> mechanism = model::read_mechanism(diagnostics, read);
   if (mechanism) check_inertia(*mechanism, diagnostics);
+  if (mechanism) check_called(*mechanism, diagnostics);
   if (mechanism) check_start(*mechanism, diagnostics);
   if (mechanism && diagnostics.has_errors() && calls_user_code(*mechanism))
     diagnostics.note({},
@@ -143,15 +166,7 @@ std::optional<LoadedMechanism> load(const ModelArguments& arguments, External ex
   return loaded;
 }
 
-bool calls_user_code(model::Mechanism mechanism) {
-  bool found = false;
-  const auto visit = [&found]<class Part>(const Part& part) {
-    if constexpr (std::is_same_v<Part, model::Expression>)
-      found = found || part.calls(support::Function::kCall);
-  };
-  model::Members(visit).of(mechanism);
-  return found;
-}
+bool calls_user_code(const model::Mechanism& mechanism) { return !called_functions(mechanism).empty(); }
 
 std::size_t LoadedMechanism::freedom() const {
   return plan() ? plan()->freedom : velocity_count() - mechanism.states.size();

@@ -50,7 +50,7 @@ struct LoadedMechanism {
 enum class External { kCalled, kWrittenOut };
 
 /// Has calls of external functions.
-bool calls_user_code(model::Mechanism mechanism);
+bool calls_user_code(const model::Mechanism& mechanism);
 
 /// "1 degree of freedom".
 std::string freedom_text(const LoadedMechanism& loaded);

@@ -1,4 +1,5 @@
 // Functions that the user of emitted code defines, compiled and run.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <string>
@@ -24,6 +25,16 @@ std::string without_external(std::string text) {
   const std::string line = "external = true\n";
   for (std::size_t at; (at = text.find(line)) != std::string::npos;) text.erase(at, line.size());
   return text;
+}
+
+/// A file with a slide that an external function f pushes.
+std::string part_text(const std::string& name, const std::string& arguments, const std::string& force) {
+  return fmt::format(R"(function = [{{ name = "f", arguments = {1}, external = true, value = "x" }}]
+body = [{{ name = "{0}", mass = 1 }}]
+joint = [{{ name = "slide_{0}", type = "prismatic", parent = "world", child = "{0}", axis = [1, 0, 0] }}]
+force = [{{ joint = "slide_{0}", value = "{2}" }}]
+)",
+                     name, arguments, force);
 }
 
 /// rig, which calls functions of the user, and plain, which does not.
@@ -88,6 +99,26 @@ TEST_F(ExternalFunctions, ThatAreMissingAreNamed) {
   const support::ProcessResult missing = compiled(command);
   EXPECT_NE(missing.status, 0);
   EXPECT_NE(missing.output.find("hardening_x"), std::string::npos) << missing.output;
+}
+
+/// Two files that are imported without a prefix.
+TEST_F(ExternalFunctions, OfOneNameThatDifferAreRefused) {
+  support::write_file(in_folder("a.toml"), part_text("a", "['x']", "f(slide_a)"));
+  support::write_file(in_folder("b.toml"), part_text("b", "['x', 'y']", "f(slide_b, 1)"));
+  const auto check = [this](const char* prefix) {
+    support::write_file(
+        in_folder("both.toml"),
+        fmt::format("[model]\nname = \"both\"\n[[import]]\nfile = \"a.toml\"\n[[import]]\nfile = "
+                    "\"b.toml\"\n{}",
+                    prefix));
+    return support::run_process({JOURDAIN_BINARY, "check", in_folder("both.toml")});
+  };
+  const support::ProcessResult refused = check("");
+  EXPECT_EQ(refused.status, 1) << refused.output;
+  EXPECT_NE(refused.output.find("two external functions are called 'f', and differ"), std::string::npos)
+      << refused.output;
+  const support::ProcessResult accepted = check("prefix = \"second_\"\n");
+  EXPECT_EQ(accepted.status, 0) << accepted.output;
 }
 
 /// Whatever runs a model takes the expressions: the numbers are those of the model without the key.

@@ -1,6 +1,8 @@
 // What rig.toml calls, as its user would write it: the same as there, times a gain.
 #pragma once
 
+#include <math.h>
+
 #include "rig.hpp"
 
 template <class Real>
