@@ -34,7 +34,7 @@ std::pair<Signed, Signed> partials(Builder& builder, Function function, Signed a
     }
     case Function::kFloor:
     case Function::kEntry:
-    case Function::kArgument:  // of calls: Graph::add_partials
+    case Function::kArgument:  // of calls: Graph::add_slopes
     case Function::kCall:
       return {zero, zero};
     case Function::kMin:

@@ -26,6 +26,8 @@ struct Callable {
   /// Of as many expressions as there are arguments.
   std::function<Expression(std::span<const Expression>)> value;
   support::SourceRange where;
+  bool is_external =
+      false;  ///< the user may define it: its name, and those of its derivatives, become members
 
   /// One is given: dimensions of expressions that call it are checked.
   bool has_units() const {

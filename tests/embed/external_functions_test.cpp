@@ -121,6 +121,18 @@ TEST_F(ExternalFunctions, OfOneNameThatDifferAreRefused) {
   EXPECT_EQ(accepted.status, 0) << accepted.output;
 }
 
+/// Functions that are written out are members of nothing: one may be the slope that another is given.
+TEST_F(ExternalFunctions, MayHaveTheirSlopesWrittenOutBeside) {
+  std::string text = part_text("a", "['x']", "f(slide_a) + f_x(slide_a)");
+  const std::string end = "\"x\" }]";
+  text.replace(text.find(end), end.size(),
+               "\"x\" }, { name = \"f_x\", arguments = [\"x\"], value = \"1 + 0*x\" }]");
+  support::write_file(in_folder("a.toml"), "model = { name = \"a\" }\n" + text);
+  const support::ProcessResult accepted =
+      support::run_process({JOURDAIN_BINARY, "check", in_folder("a.toml")});
+  EXPECT_EQ(accepted.status, 0) << accepted.output;
+}
+
 /// Whatever runs a model takes the expressions: the numbers are those of the model without the key.
 TEST_F(ExternalFunctions, StandForTheirExpressionsWhereAModelIsRun) {
   const std::string plain = in_folder("plain.toml");

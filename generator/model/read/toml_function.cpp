@@ -49,7 +49,7 @@ class FunctionReader {
     if (function_.arguments.empty() || function_.name.empty()) return {};
     if (keys_.has("argument_units")) read_units();
     Expression value = has_arguments ? keys_.function("value", {{unit}}, scope()) : 0.0;
-    const bool is_external = read_external();
+    const bool is_external = function_.is_external = read_external();
     if (is_external) check_external(value);
     read_range(unit, is_external);
     if (is_external && options_.external && has_arguments) {
@@ -93,7 +93,7 @@ class FunctionReader {
         return keys_.error("value", fmt::format("'value' of external {} has parameters", keys_.what()),
                            "what it takes are its arguments");
     for (const Callable& other : file_.callables())
-      if (names_a_slope(function_, other.name) || names_a_slope(other, function_.name))
+      if (other.is_external && (names_a_slope(function_, other.name) || names_a_slope(other, function_.name)))
         keys_.error(
             "name",
             fmt::format("{} has the name of a partial derivative, or '{}' has", keys_.what(), other.name),

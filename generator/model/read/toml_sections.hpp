@@ -48,9 +48,9 @@ CoordinateNeeds coordinate_needs(const Mechanism& mechanism, const std::optional
 void read_coordinate(TomlFile& file, const TomlTable& table, const CoordinateNeeds& needs,
                      Coordinate& coordinate);
 
-/// An error where `function`, which is differentiated twice, may have a kink or calls a function of the user.
-/// The latter alone.
+/// An error where `function`, which is differentiated, calls one of the user.
 void refuse_calls(const TomlTable& table, std::string_view key, const Expression& function);
+/// The same where it is differentiated twice; an error too where it may have a kink.
 void refuse_kinks(const TomlTable& table, std::string_view key, const Expression& function);
 
 /// A function of time, with finite first and second derivatives at t = 0 and the parameters' default values;
