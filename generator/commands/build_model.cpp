@@ -130,9 +130,9 @@ std::string shim(const std::string& name, const NumberText& number, const Compil
     inverse = fmt::format(
         "  Real zd[Model::velocity_count], forces[Model::velocity_count];\n"
         "  read(zd, zdot, Model::velocity_count);\n"
-        "  ::{}::inverse_dynamics(model(), to_state(t, y, z), zd, forces);\n"
+        "  ::{}::inverse_dynamics(model(), to_state(t, y, z), {}zd, forces);\n"
         "  write(forces, tau, Model::velocity_count);\n",
-        name);
+        name, compiled.facts.motions_take_inputs ? "Model::Input{}, " : "");
   const bool with_outputs = has(compiled, FunctionId::kOutputs);
   if (with_outputs)
     outputs = fmt::format(

@@ -35,10 +35,13 @@ void expect_loops(const model::Mechanism& mechanism, const loops::LoopPlan& plan
 
 readback::ExpectedKinematics expected_kinematics(const model::KinematicFunction& function,
                                                  const programs::SceneFacts& facts) {
-  readback::ExpectedKinematics expected{function.name, model::takes_acceleration(function), {}};
+  readback::ExpectedKinematics expected{function.name,
+                                        model::takes_acceleration(function),
+                                        facts.motions_take_inputs && model::is_second_rate(function),
+                                        {}};
   for (const model::KinematicQuantity quantity : function.quantities)
     for (const model::KinematicArray& array : model::quantity_row(quantity).arrays) {
-      if (array.if_driven && !facts.time.positions) continue;
+      if (array.is_drift && !facts.time.drift) continue;
       readback::ExpectedArray& declared = expected.arrays.emplace_back();
       declared.name = array.name;
       for (const model::ArrayExtent extent : array.extents)
@@ -106,6 +109,7 @@ readback::Expected expected_text(const model::Mechanism& mechanism, const Compil
   if (options.loops) expect_loops(mechanism, *options.loops, expected);
   expected.scalars = entries_of(facts.tangent.scalars);
   expected.quaternions = entries_of(facts.tangent.quaternions);
+  expected.motions_take_inputs = facts.motions_take_inputs;
   expected.dynamics_depend_on_time = facts.time.dynamics;
   expected.outputs_depend_on_time = facts.time.outputs;
   expected.clock = facts.clock;

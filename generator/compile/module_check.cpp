@@ -26,7 +26,7 @@ ir::LeafCounts leaves_of(const std::string& name, const programs::SceneFacts& sc
   leaves[LeafKind::kVelocity] = scene.velocities.size();
   leaves[LeafKind::kTime] = 1;
   if (function->shape == programs::Shape::kSampling) leaves[LeafKind::kStepLength] = 1;
-  if (function->takes_input) leaves[LeafKind::kInput] = scene.inputs.size();
+  if (programs::takes_input(*function, scene)) leaves[LeafKind::kInput] = scene.inputs.size();
   if (function->takes_acceleration) leaves[LeafKind::kAcceleration] = scene.velocities.size();
   return leaves;
 }

@@ -31,8 +31,11 @@ std::vector<std::string> provenance(const ModelText& model, bool has_rate) {
   lines.emplace_back();
   const char* t = model.facts.time.dynamics ? ", t" : "";
   const bool has_multipliers = !model.facts.constraints.empty() && model.facts.dependents.empty();
-  line(fmt::format("Equations of motion: M(y{0}) zdot = k_bar(y, z{0}) - q_bar(y, z{0}, u){2}, dy/dt = {1}.",
-                   t, has_rate ? "Z(y) z" : "z", has_multipliers ? " - G(y)^T lambda" : ""));
+  const char* const states = model.facts.motions_follow_states ? ", z" : "";
+  const char* const u = model.facts.motions_take_inputs ? ", u" : "";
+  line(fmt::format(
+      "Equations of motion: M(y{3}{0}) zdot = k_bar(y, z{4}{0}) - q_bar(y, z{0}, u){2}, dy/dt = {1}.", t,
+      has_rate ? "Z(y) z" : "z", has_multipliers ? " - G(y)^T lambda" : "", states, u));
   if (!model.loops.empty()) lines.insert(lines.end(), {"", "Loops"});
   for (const std::string& sentence : model.loops) line("- " + comment_text(sentence));
   lines.insert(lines.end(), {"", "Assumptions"});

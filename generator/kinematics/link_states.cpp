@@ -6,6 +6,8 @@ namespace jourdain::kinematics {
 
 namespace {
 
+using model::Expression;
+
 std::vector<Ex> declare(LeafKind kind, const char* name, std::size_t count, Statements& statements) {
   std::vector<Ex> symbols;
   for (std::size_t i = 0; i < count; ++i)
@@ -21,6 +23,7 @@ Leaves::Leaves(const model::Mechanism& mechanism, const model::CoordinateLayout&
     parameters.push_back(statements.leaf(LeafKind::kParameter, i, mechanism.parameters[i].name));
   y = declare(LeafKind::kPosition, "y", layout.position_count(), statements);
   z = declare(LeafKind::kVelocity, "z", layout.velocity_count(), statements);
+  first_state = layout.first_state();
   zdot = declare(LeafKind::kAcceleration, "zdot", layout.velocity_count(), statements);
   std::size_t rows = 0;
   for (const model::Loop& loop : mechanism.loops) rows += model::row_count(loop.type);
@@ -37,10 +40,61 @@ std::size_t LinkState::column_count(const Link& link) const {
 
 namespace {
 
+/// Prescribed motions as they move on: states by their rates, inputs not at all.
+class Motions {
+ public:
+  Motions(const model::Mechanism& mechanism, const Leaves& leaves, Statements& statements)
+      : mechanism_(mechanism), leaves_(leaves), statements_(statements) {}
+
+  Taylor of(const Expression& motion) const {
+    return differentiated(motion, [this](std::size_t state) {
+      const Taylor rate = velocity(mechanism_.states[state].rate);
+      return Taylor{value({Variable::Kind::kState, state}), rate.value, rate.first};
+    });
+  }
+
+ private:
+  using Variable = model::Variable;
+
+  Ex value(const Variable& variable) const {
+    switch (variable.kind) {
+      case Variable::Kind::kTime:
+        return leaves_.t;
+      case Variable::Kind::kInput:
+        return leaves_.u[variable.index];
+      case Variable::Kind::kState:
+        return leaves_.z[leaves_.first_state + variable.index];
+      default:
+        throw support::InternalError("a motion follows what moves");
+    }
+  }
+
+  template <class OfState>
+  Taylor differentiated(const Expression& expression, const OfState& of_state) const {
+    return kinematics::differentiated(expression, leaves_.parameters, statements_, [&](const Variable& v) {
+      if (v.kind == Variable::Kind::kState) return of_state(v.index);
+      return Taylor{value(v), v.kind == Variable::Kind::kTime ? 1 : 0, 0};
+    });
+  }
+
+  /// A rate and its first derivative; the second is not known.
+  Taylor velocity(const Expression& rate) const {
+    return differentiated(rate, [this](std::size_t state) {
+      const Ex moving = to_symbolic(mechanism_.states[state].rate, leaves_.parameters, statements_,
+                                    [this](const Variable& v) { return value(v); });
+      return Taylor{value({Variable::Kind::kState, state}), moving, 0};
+    });
+  }
+
+  const model::Mechanism& mechanism_;
+  const Leaves& leaves_;
+  Statements& statements_;
+};
+
 void set_scalar(LinkState& state, const Link& link, const model::JointEntries& entries,
-                const model::Coordinate& coordinate, const Leaves& leaves, Statements& statements) {
+                const model::Coordinate& coordinate, const Leaves& leaves, const Motions& motions) {
   if (coordinate.motion) {
-    const Taylor motion = differentiated(*coordinate.motion, leaves.t, leaves.parameters, statements);
+    const Taylor motion = motions.of(*coordinate.motion);
     state.position = link.sign * motion.value;
     state.rate = link.sign * motion.first;
     state.acceleration = link.sign * motion.second;
@@ -80,6 +134,7 @@ std::vector<LinkState> derive_link_states(const model::Mechanism& mechanism,
                                           const model::CoordinateLayout& layout, const LinkTree& tree,
                                           const Leaves& leaves, Statements& statements) {
   std::vector<LinkState> states;
+  const Motions motions(mechanism, leaves, statements);
   for (const Link& link : tree.links) {
     const model::Joint& joint = mechanism.joints[link.joint.value];
     const model::JointEntries& entries = layout.joints[link.joint.value];
@@ -87,7 +142,7 @@ std::vector<LinkState> derive_link_states(const model::Mechanism& mechanism,
     if (link.has_quaternion())
       set_rotation(state, link, entries, leaves);
     else
-      set_scalar(state, link, entries, joint.coordinates[link.coordinate], leaves, statements);
+      set_scalar(state, link, entries, joint.coordinates[link.coordinate], leaves, motions);
     if (link.kind == LinkKind::kCurve) set_curve(state, joint, leaves, statements);
   }
   return states;

@@ -1,4 +1,5 @@
-// Positions and rates of the links, as leaves y, z of free coordinates and functions of t of prescribed ones.
+// Positions and rates of the links, as leaves y, z of free coordinates; prescribed ones as functions of t and of
+// states.
 #pragma once
 
 #include <array>
@@ -14,6 +15,7 @@ namespace jourdain::kinematics {
 /// The symbols that the equations are functions of.
 struct Leaves {
   std::vector<Ex> parameters, y, z, zdot, lambda, u;
+  std::size_t first_state = 0;  ///< entry in z
   Ex t = 0, h = 0;
 
   Leaves(const model::Mechanism& mechanism, const model::CoordinateLayout& layout, Statements& statements);

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "kinematics/function_calls.hpp"
+#include "support/called_function.hpp"
 #include "support/check.hpp"
 #include "support/function_derivatives.hpp"
 
@@ -72,6 +73,7 @@ struct Symbolic {
 struct Jet {
   Taylor at;
   Statements* statements;
+  std::vector<Taylor> arguments = {};  ///< of a list that an external function is called with
 
   Jet bound(const Ex& value, const Ex& first, const Ex& second) const {
     const Ex v = statements->bind("expression", value);
@@ -82,6 +84,33 @@ struct Jet {
   Jet chained(const Ex& f, const Ex& df, const Ex& ddf) const {
     const Ex square = statements->bind("derivative", at.first * at.first);
     return bound(f, df * at.first, ddf * square + df * at.second);
+  }
+  /// The list of arguments `before` with this one more.
+  Jet behind(const Jet& before) const {
+    const Ex list = applied(support::Function::kArgument, at.value, before.at.value);
+    Jet longer{{statements->bind("expression", list), 0, 0}, statements, before.arguments};
+    longer.arguments.push_back(at);
+    return longer;
+  }
+  /// The function of that number of this list.
+  Jet called(const Ex& which) const {
+    const auto of_list = [this](std::uint32_t function) {
+      return statements->bind("call", applied(support::Function::kCall, at.value, Ex(function)));
+    };
+    const auto number = static_cast<std::uint32_t>(ex_to<numeric>(which).to_int());
+    Ex first = 0, second = 0;
+    for (std::size_t i = 0; i < arguments.size(); ++i) {
+      const auto& [value, rate, rate_of_rate] = arguments[i];
+      if (rate.is_zero() && rate_of_rate.is_zero()) continue;
+      const std::uint32_t slope = support::number_of_slope(number, i);
+      const Ex by_i = of_list(slope);
+      first += by_i * rate;
+      second += by_i * rate_of_rate;
+      for (std::size_t k = 0; k < arguments.size(); ++k)
+        if (!rate.is_zero() && !arguments[k].first.is_zero())
+          second += of_list(support::number_of_slope(slope, k)) * rate * arguments[k].first;
+    }
+    return bound(of_list(number), first, second);
   }
   friend Jet operator-(const Jet& a) { return a.bound(-a.at.value, -a.at.first, -a.at.second); }
   friend Jet operator+(const Jet& a, const Jet& b) {
@@ -118,6 +147,8 @@ struct Jet {
   }
   friend Jet value_of(support::Function function, const Jet& a, const Jet& b) {
     using support::Function;
+    if (function == Function::kArgument) return a.behind(b);
+    if (function == Function::kCall) return a.called(b.at.value);
     const support::FunctionFacts& facts = support::facts_of(function);
     JD_CHECK(!facts.has_kinks, "{} is not differentiated here", facts.name);
     const auto symbolic = [&a](const Ex& value) { return Symbolic{value, a.statements}; };
@@ -187,18 +218,25 @@ Ex to_symbolic(const model::Expression& expression, std::span<const Ex> paramete
       .value;
 }
 
-Taylor differentiated(const model::Expression& expression, const Ex& variable, std::span<const Ex> parameters,
-                      Statements& statements) {
+Taylor differentiated(const model::Expression& expression, std::span<const Ex> parameters,
+                      Statements& statements, const VariableTaylor& variable) {
   const auto constant = [&statements](const Ex& value) { return Jet{{value, 0, 0}, &statements}; };
   std::vector<Jet> values;
   for (const Ex& parameter : parameters) values.push_back(constant(parameter));
   return expression
       .evaluate<Jet>(
           values, [&](double v) { return constant(exact(v)); },
-          [&](const model::Variable&) {
-            return Jet{{variable, 1, 0}, &statements};
+          [&](const model::Variable& v) {
+            return Jet{variable(v), &statements};
           })
       .at;
+}
+
+Taylor differentiated(const model::Expression& expression, const Ex& variable, std::span<const Ex> parameters,
+                      Statements& statements) {
+  return differentiated(expression, parameters, statements, [&variable](const model::Variable&) {
+    return Taylor{variable, 1, 0};
+  });
 }
 
 Vector3 to_symbolic(const model::Vector3& vector, std::span<const Ex> parameters, Statements& statements) {

@@ -35,8 +35,14 @@ struct Taylor {
   Ex value, first, second;
 };
 
-/// `expression` as a function of its only variable, whose value is `variable`; every operation is bound, derivatives
-/// follow the rules of differentiation operation by operation.
+/// A variable of an expression that is differentiated.
+using VariableTaylor = std::function<Taylor(const model::Variable&)>;
+/// Every operation is bound, derivatives follow the rules of differentiation operation by operation; external functions
+/// have their partial derivatives called.
+Taylor differentiated(const model::Expression& expression, std::span<const Ex> parameters,
+                      Statements& statements, const VariableTaylor& variable);
+
+/// As a function of its only variable, whose value is `variable`.
 Taylor differentiated(const model::Expression& expression, const Ex& variable, std::span<const Ex> parameters,
                       Statements& statements);
 

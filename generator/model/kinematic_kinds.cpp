@@ -34,39 +34,39 @@ constexpr KinematicArray kGravity[] = {{"tau_gravity", kN, "N m or N"}};
 constexpr KinematicArray kInverseInertia[] = {{"inverse_inertia", k6x6, ""}};
 
 constexpr auto kRows = std::to_array<QuantityRow>({
-    {KinematicQuantity::kPose, "pose", true, false, false, kPose,
+    {KinematicQuantity::kPose, "pose", true, false, false, false, kPose,
      "position: origin of '{}' in world axes, m. rotation: its axes are the columns."},
-    {KinematicQuantity::kVelocity, "velocity", true, true, false, kVelocity,
+    {KinematicQuantity::kVelocity, "velocity", true, true, false, false, kVelocity,
      "velocity: of '{}', linear (m/s) before angular (rad/s)."},
-    {KinematicQuantity::kAcceleration, "acceleration", true, true, true, kAcceleration,
+    {KinematicQuantity::kAcceleration, "acceleration", true, true, true, true, kAcceleration,
      "acceleration: of '{}' at the given zdot, linear (m/s^2) before angular (rad/s^2)."},
-    {KinematicQuantity::kImu, "imu", true, false, true, kImu,
+    {KinematicQuantity::kImu, "imu", true, false, true, true, kImu,
      "specific_force: acceleration of '{}' at the given zdot less gravity, m/s^2, which an accelerometer "
      "there "
      "reads;\nangular_velocity: rad/s, which a gyroscope reads. Both in its own axes."},
-    {KinematicQuantity::kJacobian, "jacobian", true, true, false, kJacobian,
+    {KinematicQuantity::kJacobian, "jacobian", true, true, false, false, kJacobian,
      "J: Jacobian of '{}', velocity = J z, linear rows before angular rows."},
-    {KinematicQuantity::kJacobianBias, "jacobian_bias", true, true, false, kJacobianBias,
+    {KinematicQuantity::kJacobianBias, "jacobian_bias", true, true, false, true, kJacobianBias,
      "bias: acceleration of '{}' at zdot = 0, so that acceleration = J zdot + bias: the Jacobian's rate "
      "times z."},
-    {KinematicQuantity::kCenterOfMass, "center_of_mass", false, false, false, kCenterOfMass,
+    {KinematicQuantity::kCenterOfMass, "center_of_mass", false, false, false, false, kCenterOfMass,
      "center_of_mass: of all bodies, in world axes, m."},
-    {KinematicQuantity::kCenterOfMassJacobian, "center_of_mass_jacobian", false, false, false,
+    {KinematicQuantity::kCenterOfMassJacobian, "center_of_mass_jacobian", false, false, false, false,
      kCenterOfMassJacobian, "J_com: velocity of the centre of mass of all bodies = J_com z, world axes."},
-    {KinematicQuantity::kCenterOfMassBias, "center_of_mass_bias", false, false, false, kCenterOfMassBias,
-     "bias_com: acceleration of the centre of mass at zdot = 0, world axes, m/s^2."},
-    {KinematicQuantity::kMomentum, "momentum", false, false, false, kMomentum,
+    {KinematicQuantity::kCenterOfMassBias, "center_of_mass_bias", false, false, false, true,
+     kCenterOfMassBias, "bias_com: acceleration of the centre of mass at zdot = 0, world axes, m/s^2."},
+    {KinematicQuantity::kMomentum, "momentum", false, false, false, false, kMomentum,
      "momentum: linear (N s), then angular about the centre of mass (N m s), world axes; rotors are not in "
      "it."},
-    {KinematicQuantity::kCentroidalMomentumMatrix, "centroidal_momentum_matrix", false, false, false,
+    {KinematicQuantity::kCentroidalMomentumMatrix, "centroidal_momentum_matrix", false, false, false, false,
      kMomentumMatrix,
      "A: momentum = A z, linear rows, then angular ones about the centre of mass, world axes."},
-    {KinematicQuantity::kCentroidalMomentumBias, "centroidal_momentum_bias", false, false, false,
+    {KinematicQuantity::kCentroidalMomentumBias, "centroidal_momentum_bias", false, false, false, true,
      kMomentumBias,
      "bias_momentum: rate of the momentum at zdot = 0, so that its rate = A zdot + bias_momentum, N, N m."},
-    {KinematicQuantity::kGravityCompensation, "gravity_compensation", false, false, false, kGravity,
+    {KinematicQuantity::kGravityCompensation, "gravity_compensation", false, false, false, false, kGravity,
      "tau_gravity: generalized forces that hold the mechanism against gravity alone, N m or N."},
-    {KinematicQuantity::kInverseOperationalInertia, "inverse_operational_inertia", true, true, false,
+    {KinematicQuantity::kInverseOperationalInertia, "inverse_operational_inertia", true, true, false, false,
      kInverseInertia,
      "inverse_inertia: J M^-1 J^T of '{}', the inverse of the operational-space inertia where that has one: "
      "force\nlinear before angular, as for J; acceleration per unit of force. Both triangles are filled."},
@@ -126,6 +126,11 @@ std::optional<std::size_t> kinematic_function_named(const Mechanism& mechanism, 
 bool takes_acceleration(const KinematicFunction& function) {
   return std::any_of(function.quantities.begin(), function.quantities.end(),
                      [](KinematicQuantity quantity) { return quantity_row(quantity).takes_acceleration; });
+}
+
+bool is_second_rate(const KinematicFunction& function) {
+  return std::any_of(function.quantities.begin(), function.quantities.end(),
+                     [](KinematicQuantity quantity) { return quantity_row(quantity).is_second_rate; });
 }
 
 std::variant<std::vector<KinematicQuantity>, KinematicError> parse_quantities(std::string_view text,

@@ -19,7 +19,7 @@ struct KinematicArray {
   std::string_view name;
   std::span<const ArrayExtent> extents;
   std::string_view unit;
-  bool if_driven = false;  ///< only where positions depend on time
+  bool is_drift = false;  ///< only where positions move at z = 0
 };
 
 struct QuantityRow {
@@ -28,6 +28,7 @@ struct QuantityRow {
   bool of_frame = true;   ///< otherwise of the whole mechanism
   bool has_axes = false;  ///< whether the axes that are chosen matter
   bool takes_acceleration = false;
+  bool is_second_rate = false;  ///< prescribed accelerations are in it
   std::span<const KinematicArray> arrays;
   std::string_view text;  ///< what it is, a sentence; {} is the frame's name
 };
@@ -47,6 +48,8 @@ std::string_view axes_text(Axes axes);
 std::optional<std::size_t> kinematic_function_named(const Mechanism& mechanism, std::string_view name);
 
 bool takes_acceleration(const KinematicFunction& function);
+/// Prescribed accelerations are in its results.
+bool is_second_rate(const KinematicFunction& function);
 
 /// Why a text names no quantities.
 struct KinematicError {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "model/motion_sources.hpp"
 #include "model/output_kinds.hpp"
 
 namespace jourdain::model {
@@ -17,6 +18,19 @@ bool is_driven(const Coordinate& coordinate) {
 bool is_driven(const Joint& joint) {
   return std::any_of(joint.coordinates.begin(), joint.coordinates.end(),
                      [](const Coordinate& c) { return is_driven(c); });
+}
+
+/// Its position, velocity or acceleration at given states and inputs.
+bool moves_with_time(const Mechanism& mechanism, const Joint& joint) {
+  const auto rates_do = [&](const std::set<std::size_t>& states) {
+    return std::ranges::any_of(
+        states, [&](std::size_t state) { return any_variable(mechanism.states[state].rate, is_time); });
+  };
+  return is_driven(joint) || std::ranges::any_of(joint.coordinates, [&](const Coordinate& coordinate) {
+           if (!coordinate.motion) return false;
+           const MotionSources sources = motion_sources(mechanism, *coordinate.motion);
+           return rates_do(sources.first) || rates_do(sources.second);
+         });
 }
 
 bool positions_depend(const Mechanism& mechanism) {
@@ -75,12 +89,12 @@ class OutputTime {
 
   /// Loops carry what moves with time to all coordinates that they determine.
   bool joint_depends(const Joint& joint) const {
-    return mechanism_.loops.empty() ? is_driven(joint) : time_.positions;
+    return mechanism_.loops.empty() ? moves_with_time(mechanism_, joint) : time_.positions;
   }
 
   bool frame_depends(FrameIndex frame) const {
     std::optional<BodyIndex> body = mechanism_.frames[frame.value].body;
-    if (!body || !time_.positions) return false;
+    if (!body || !time_.drift) return false;
     while (body) {
       const auto joint = std::find_if(mechanism_.joints.begin(), mechanism_.joints.end(),
                                       [&](const Joint& j) { return j.child == *body; });
@@ -99,7 +113,9 @@ class OutputTime {
 TimeDependence time_dependence(const Mechanism& mechanism) {
   TimeDependence time;
   time.positions = positions_depend(mechanism);
-  time.dynamics = time.positions || forces_depend(mechanism);
+  time.drift = time.positions || motions_follow_states(mechanism);
+  time.dynamics =
+      time.positions || forces_depend(mechanism);  // states that motions follow are force elements
   const OutputTime outputs(mechanism, time);
   time.outputs = std::any_of(mechanism.outputs.begin(), mechanism.outputs.end(),
                              [&](const Output& output) { return outputs.depends(output); });

@@ -7,8 +7,9 @@ namespace jourdain::model {
 
 struct TimeDependence {
   bool positions = false;  ///< a prescribed coordinate or a loop moves with t: M(y, t), dependent positions
-  bool dynamics = false;   ///< M, k̄ or q̄: positions, or an applied force
-  bool outputs = false;    ///< some output at given y, z, u
+  bool drift = false;  ///< positions move at z = 0: with t, or by states that prescribed coordinates follow
+  bool dynamics = false;  ///< M, k̄ or q̄: positions, or an applied force
+  bool outputs = false;   ///< some output at given y, z, u
 
   bool any() const { return dynamics || outputs; }  // positions are part of dynamics
 };

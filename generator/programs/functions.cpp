@@ -43,6 +43,7 @@ std::vector<FunctionInfo> function_table() {
        .comment_states = "States have rows of a unit matrix."},
       {.id = FunctionId::kKBar,
        .result = "k",
+       .is_second_rate = true,
        .comment = "Inertia terms k_bar: Coriolis, centrifugal and those of prescribed motion; no gravity."},
       {.id = FunctionId::kQBar,
        .result = "q",
@@ -60,6 +61,7 @@ std::vector<FunctionInfo> function_table() {
        .comment_states = "Entries of states are their rates."},
       {.id = FunctionId::kInverseDynamics,
        .result = "tau",
+       .is_second_rate = true,
        .takes_acceleration = true,
        .comment = "Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given "
                   "accelerations\n`zdot`, N m or N.",
@@ -192,7 +194,7 @@ Extent extent_of(model::ArrayExtent extent) {
 ArrayResult array_result(const model::KinematicArray& array) {
   ArrayResult result{std::string(array.name), {}};
   for (const model::ArrayExtent extent : array.extents) result.extents.push_back(extent_of(extent));
-  if (array.if_driven) result.only_if = &TimeDependence::positions;
+  if (array.is_drift) result.only_if = &TimeDependence::drift;
   return result;
 }
 
@@ -264,12 +266,18 @@ std::vector<std::string> default_functions() {
   return names;
 }
 
+bool takes_input(const FunctionInfo& function, const SceneFacts& scene) {
+  return function.takes_input || (function.is_second_rate && scene.motions_take_inputs);
+}
+
 std::string comment_of(const FunctionInfo& function, const SceneFacts& scene) {
   std::string comment = function.comment;
   const auto add = [&comment](const std::string& remark) {
     if (!remark.empty()) comment += "\n" + remark;
   };
   if (!scene.states.empty()) add(function.comment_states);
+  if (function.is_second_rate && scene.motions_take_inputs)
+    add("Inputs push nothing here: prescribed accelerations depend on them.");
   if (!scene.constraints.empty())
     add(scene.is_reduced ? function.comment_reduced : function.comment_multipliers);
   return comment;
@@ -310,7 +318,10 @@ std::vector<FunctionInfo> with_needed(const std::vector<std::string>& wanted, co
   }
   std::vector<FunctionInfo> chosen;
   for (const FunctionInfo& function : all_functions())
-    if (names.count(function.name) && has_function(function, scene)) chosen.push_back(function);
+    if (names.count(function.name) && has_function(function, scene)) {
+      chosen.push_back(function);
+      chosen.back().takes_input = takes_input(function, scene);
+    }
   return chosen;
 }
 
@@ -325,8 +336,10 @@ std::vector<FunctionInfo> kinematic_functions(const SceneFacts& scene) {
     for (const model::KinematicQuantity quantity : scene.kinematics[k].quantities) {
       const model::QuantityRow& row = model::quantity_row(quantity);
       info.takes_acceleration = info.takes_acceleration || row.takes_acceleration;
+      info.is_second_rate = info.is_second_rate || row.is_second_rate;
       for (const model::KinematicArray& array : row.arrays) info.arrays.push_back(array_result(array));
     }
+    info.takes_input = takes_input(info, scene);
     if (has_function(info, scene)) list.push_back(std::move(info));
   }
   return list;

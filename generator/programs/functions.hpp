@@ -49,6 +49,7 @@ struct FunctionInfo {
   Shape shape = Shape::kVector;
   std::string result = {};  ///< name of the array, and of the program's outputs
   bool takes_input = false;
+  bool is_second_rate = false;  ///< takes inputs where prescribed accelerations depend on them
   bool takes_acceleration = false;            ///< Real (&zdot)[nz]
   std::vector<std::string> needs = {};        ///< functions that its body calls
   std::string comment = {};                   ///< doc comment, lines separated by '\n'
@@ -79,6 +80,9 @@ bool is_listed(const FunctionInfo& function);
 /// Whether the scene has the function: vectors and matrices of length zero are left out, the rate of the
 /// positions where it is z, outputs where there are none.
 bool has_function(const FunctionInfo& function, const SceneFacts& scene);
+
+/// Whether it takes inputs there.
+bool takes_input(const FunctionInfo& function, const SceneFacts& scene);
 
 /// The function's comment, with what is different where loops are closed.
 std::string comment_of(const FunctionInfo& function, const SceneFacts& scene);

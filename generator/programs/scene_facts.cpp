@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "model/kinematic_kinds.hpp"
+#include "model/motion_sources.hpp"
 #include "model/output_kinds.hpp"
 
 namespace jourdain::programs {
@@ -109,6 +110,8 @@ SceneFacts scene_facts(const model::Mechanism& mechanism, const loops::LoopPlan*
   facts.parameters = mechanism.parameters;
   facts.tangent = layout.tangent;
   facts.time = model::time_dependence(mechanism);
+  facts.motions_follow_states = model::motions_follow_states(mechanism);
+  facts.motions_take_inputs = model::motions_take_inputs(mechanism);
   facts.all_derivatives = wishes.all_derivatives;
   facts.clock = wishes.clock || facts.time.any() || !facts.inputs.empty();
   if (plan) set_loop_facts(mechanism, *plan, facts);

@@ -42,6 +42,8 @@ struct SceneFacts {
   std::vector<KinematicFacts> kinematics;
   model::Tangent tangent;  ///< of the independent coordinates
   model::TimeDependence time;
+  bool motions_follow_states = false;  ///< prescribed positions depend on states
+  bool motions_take_inputs = false;    ///< prescribed accelerations depend on inputs
   bool clock = false;  ///< states hold the time: something depends on it, inputs may, or it was asked for
 
   bool all_derivatives = true;  ///< those of the residual hold all terms

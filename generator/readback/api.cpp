@@ -66,10 +66,10 @@ std::vector<FunctionApi> programs(const Expected& expected) {
           sampling(),
           arrays("position_rate", {{"ydot", {expected.positions.size()}}}),
           mass_matrix(n),
-          arrays("k_bar", {{"k", {n}}}),
+          arrays("k_bar", {{"k", {n}}}, expected.motions_take_inputs),
           arrays("q_bar", {{"q", {n}}}, true),
           arrays("forward_dynamics", {{"zdot", {n}}}, true),
-          arrays("inverse_dynamics", {{"tau", {n}}}, false, true),
+          arrays("inverse_dynamics", {{"tau", {n}}}, expected.motions_take_inputs, true),
           in_struct("outputs", "Outputs"),
           sparse(arrays("constraint_residual", {{"g", {g}}, {"g_rate", {g}}})),
           sparse(arrays("constraint_forces", {{"lambda", {g}}}, true)),
@@ -105,7 +105,7 @@ std::optional<FunctionApi> api_of(const std::string& name, const Expected& expec
     if (kinematics.name != name) continue;
     std::vector<ArrayArgument> list;
     for (const ExpectedArray& array : kinematics.arrays) list.push_back({array.name, array.extents});
-    return sparse(arrays(name, std::move(list), false, kinematics.takes_acceleration));
+    return sparse(arrays(name, std::move(list), kinematics.takes_input, kinematics.takes_acceleration));
   }
   return step(name);
 }

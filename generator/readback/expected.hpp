@@ -42,7 +42,7 @@ struct ExpectedArray {
 /// A function of the kinematics and the arrays that it fills.
 struct ExpectedKinematics {
   std::string name;
-  bool takes_acceleration = false;
+  bool takes_acceleration = false, takes_input = false;
   std::vector<ExpectedArray> arrays;
 };
 
@@ -86,6 +86,7 @@ struct Expected {
   std::vector<ExpectedKinematics> kinematics;
   std::vector<ExpectedTangent> scalars, quaternions;  ///< of the independent coordinates
   std::vector<std::size_t> dependents;                ///< entries of y that close_loops sets
+  bool motions_take_inputs = false;                   ///< prescribed accelerations depend on inputs
   bool dynamics_depend_on_time = false, outputs_depend_on_time = false;
   bool clock = false;             ///< states hold the time
   bool rate_is_velocity = false;  ///< dy/dt = z

@@ -21,8 +21,9 @@ void compare_with_reference(const model::Mechanism& mechanism, const dynamics::E
   const ExactReference reference(mechanism, leaves[LeafKind::kParameter]);
   const reference::State<ScaledReal> state = {leaves[LeafKind::kTime][0],
                                               to_exact(leaves[LeafKind::kPosition]),
-                                              to_exact(leaves[LeafKind::kVelocity])};
-  const ExactVector u = to_exact(leaves[LeafKind::kInput]);
+                                              to_exact(leaves[LeafKind::kVelocity]),
+                                              to_exact(leaves[LeafKind::kInput])};
+  const ExactVector& u = state.u;
   const auto terms = reference.evaluate(state, u);
   const auto same = [&](const char* what, const std::vector<ScaledReal>& values,
                         const std::vector<ScaledReal>& expected) {

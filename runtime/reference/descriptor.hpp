@@ -155,13 +155,22 @@ class DescriptorReference {
   using Coordinates = std::vector<std::vector<descriptor::TimeJet<Scalar>>>;  // by joint
   struct System;
 
-  descriptor::TimeJet<Scalar> prescribed(const model::Expression& motion, Scalar t) const;
-  Coordinates coordinates_at(Scalar t, const Eigen::VectorX<Scalar>& y,
+  /// What prescribed motions follow.
+  struct Led {
+    Scalar t;
+    Eigen::VectorX<Scalar> states, inputs;  ///< inputs: empty where accelerations are not asked for
+  };
+  descriptor::TimeJet<Scalar> prescribed(const model::Expression& motion, const Led& led,
+                                         int rates = 2) const;
+  Coordinates coordinates_at(const Led& led, const Eigen::VectorX<Scalar>& y,
                              const Eigen::VectorX<Scalar>& z) const;
+  Led led(Scalar t, const Eigen::VectorX<Scalar>& z, const Eigen::VectorX<Scalar>& u = {}) const {
+    return {t, z.tail(Eigen::Index(layout_.state_count)), u};
+  }
   descriptor::Pose<descriptor::TimeJet<Scalar>> body_pose(
       std::size_t joint, const descriptor::Pose<descriptor::TimeJet<Scalar>>& parent,
       const Coordinates& coordinates, const Eigen::VectorX<Scalar>& y, const Eigen::VectorX<Scalar>& z) const;
-  Coordinates coordinates_near(Scalar t, const std::vector<std::vector<Scalar>>& near) const;
+  Coordinates coordinates_near(const Led& led, const std::vector<std::vector<Scalar>>& near) const;
   Eigen::VectorX<Scalar> correction(const System& system, const Eigen::VectorX<Scalar>& violation) const;
   static Eigen::MatrixX<Scalar> index1_matrix(const System& system);
   System linearise(Scalar t, const std::vector<AbsoluteBody<Scalar>>& motions,

@@ -160,7 +160,7 @@ template <class Scalar>
 DescriptorSolution<Scalar> DescriptorReference<Scalar>::solve(Scalar t, const Eigen::VectorX<Scalar>& y,
                                                               const Eigen::VectorX<Scalar>& z,
                                                               const Eigen::VectorX<Scalar>& u) const {
-  System system = linearise(t, absolute_state(t, y, z), coordinates_at(t, y, z));
+  System system = linearise(t, absolute_state(t, y, z), coordinates_at(led(t, z, u), y, z));
   add_forces(scene_at(t, u, system, z.tail(Eigen::Index(layout_.state_count))), system);
   add_inertia(system);
   return solution(system, tree_velocities(t, y, z));
@@ -171,7 +171,7 @@ Eigen::VectorX<Scalar> DescriptorReference<Scalar>::sampled_states(Scalar t, con
                                                                    const Eigen::VectorX<Scalar>& z,
                                                                    const Eigen::VectorX<Scalar>& u,
                                                                    Scalar h) const {
-  const System system = linearise(t, absolute_state(t, y, z), coordinates_at(t, y, z));
+  const System system = linearise(t, absolute_state(t, y, z), coordinates_at(led(t, z, u), y, z));
   descriptor::Scene<Scalar> scene = scene_at(t, u, system, z.tail(Eigen::Index(layout_.state_count)));
   scene.h = h;
   return descriptor::sampled_states(mechanism_, scene);
@@ -181,7 +181,7 @@ template <class Scalar>
 LoopConstraints<Scalar> DescriptorReference<Scalar>::loop_constraints(Scalar t,
                                                                       const Eigen::VectorX<Scalar>& y,
                                                                       const Eigen::VectorX<Scalar>& z) const {
-  const System system = linearise(t, absolute_state(t, y, z), coordinates_at(t, y, z));
+  const System system = linearise(t, absolute_state(t, y, z), coordinates_at(led(t, z), y, z));
   const Eigen::Index count = system.loop_row_count;
   return {system.G.bottomRows(count) * tree_velocities(t, y, z), system.g.tail(count),
           system.g_rate.tail(count)};
@@ -190,7 +190,7 @@ LoopConstraints<Scalar> DescriptorReference<Scalar>::loop_constraints(Scalar t,
 template <class Scalar>
 AbsoluteRates<Scalar> DescriptorReference<Scalar>::rates(const AbsoluteState<Scalar>& state,
                                                          const Eigen::VectorX<Scalar>& u) const {
-  System system = linearise(state.t, state.bodies, coordinates_near(state.t, state.near));
+  System system = linearise(state.t, state.bodies, coordinates_near({state.t, state.states, u}, state.near));
   const descriptor::Scene<Scalar> scene = scene_at(state.t, u, system, state.states);
   add_forces(scene, system);
   add_inertia(system);
@@ -220,7 +220,8 @@ template <class Scalar>
 AbsoluteState<Scalar> DescriptorReference<Scalar>::projected(AbsoluteState<Scalar> state) const {
   constexpr int kNewtonSteps = 2;
   const auto at_state = [&] {
-    System system = linearise(state.t, state.bodies, coordinates_near(state.t, state.near));
+    System system =
+        linearise(state.t, state.bodies, coordinates_near({state.t, state.states, {}}, state.near));
     system.forces = Eigen::VectorX<Scalar>::Zero(6 * Eigen::Index(bodies_.size()));
     add_inertia(system);
     return system;

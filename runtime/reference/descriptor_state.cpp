@@ -1,5 +1,7 @@
 // From minimal coordinates to a consistent state in absolute ones: the only place of the descriptor form that walks
 // the tree.
+#include <limits>
+
 #include "reference/descriptor.hpp"
 #include "support/check.hpp"
 
@@ -46,22 +48,31 @@ AbsoluteBody<Scalar> absolute_body(const descriptor::Body<Scalar>& body, const P
 
 }  // namespace
 
+/// With as many of its derivatives as `rates` says; the others are not known. A state moves on by its rate.
 template <class Scalar>
-TimeJet<Scalar> DescriptorReference<Scalar>::prescribed(const model::Expression& motion, Scalar t) const {
+TimeJet<Scalar> DescriptorReference<Scalar>::prescribed(const model::Expression& motion, const Led& led,
+                                                        int rates) const {
   using T = TimeJet<Scalar>;
+  using Kind = model::Variable::Kind;
   const std::vector<T> parameters(parameters_.begin(), parameters_.end());
   return motion.evaluate<T>(
       parameters, [](double value) { return T(Scalar(value)); },
       [&](const model::Variable& variable) {
-        JD_CHECK(variable.kind == model::Variable::Kind::kTime, "a motion depends on variable kind {}",
-                 int(variable.kind));
-        return T(t, 1, 0);
+        const auto i = Eigen::Index(variable.index);
+        if (variable.kind == Kind::kTime) return T(led.t, 1, 0);
+        if (variable.kind == Kind::kState) {
+          if (rates == 0) return T(led.states[i]);
+          const T rate = prescribed(mechanism_.states[variable.index].rate, led, rates - 1);
+          return T(led.states[i], rate.value, rate.rate);
+        }
+        JD_CHECK(variable.kind == Kind::kInput, "a motion depends on variable kind {}", int(variable.kind));
+        return T(i < led.inputs.size() ? led.inputs[i] : std::numeric_limits<Scalar>::quiet_NaN());
       });
 }
 
 template <class Scalar>
 typename DescriptorReference<Scalar>::Coordinates DescriptorReference<Scalar>::coordinates_at(
-    Scalar t, const Eigen::VectorX<Scalar>& y, const Eigen::VectorX<Scalar>& z) const {
+    const Led& led, const Eigen::VectorX<Scalar>& y, const Eigen::VectorX<Scalar>& z) const {
   JD_CHECK(
       std::size_t(y.size()) == layout_.position_count() && std::size_t(z.size()) == layout_.velocity_count(),
       "{} positions, {} velocities for {} and {}", y.size(), z.size(), layout_.position_count(),
@@ -71,7 +82,7 @@ typename DescriptorReference<Scalar>::Coordinates DescriptorReference<Scalar>::c
     const auto& coordinates = mechanism_.joints[j].coordinates;
     const model::JointEntries& entries = layout_.joints[j];
     for (std::size_t i = 0; i < coordinates.size(); ++i)
-      result[j].push_back(coordinates[i].motion ? prescribed(*coordinates[i].motion, t)
+      result[j].push_back(coordinates[i].motion ? prescribed(*coordinates[i].motion, led)
                                                 : TimeJet<Scalar>(y[Eigen::Index(*entries.position[i])],
                                                                   z[Eigen::Index(*entries.velocity[i])], 0));
   }
@@ -80,12 +91,12 @@ typename DescriptorReference<Scalar>::Coordinates DescriptorReference<Scalar>::c
 
 template <class Scalar>
 typename DescriptorReference<Scalar>::Coordinates DescriptorReference<Scalar>::coordinates_near(
-    Scalar t, const std::vector<std::vector<Scalar>>& near) const {
+    const Led& led, const std::vector<std::vector<Scalar>>& near) const {
   Coordinates result(joints_.size());
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     const auto& coordinates = mechanism_.joints[j].coordinates;
     for (std::size_t i = 0; i < coordinates.size(); ++i)
-      result[j].push_back(coordinates[i].motion ? prescribed(*coordinates[i].motion, t)
+      result[j].push_back(coordinates[i].motion ? prescribed(*coordinates[i].motion, led)
                                                 : TimeJet<Scalar>(near[j][i], 0, 0));
   }
   return result;
@@ -95,7 +106,7 @@ template <class Scalar>
 AbsoluteState<Scalar> DescriptorReference<Scalar>::absolute(Scalar t, const Eigen::VectorX<Scalar>& y,
                                                             const Eigen::VectorX<Scalar>& z) const {
   AbsoluteState<Scalar> state{t, absolute_state(t, y, z), {}, z.tail(Eigen::Index(layout_.state_count))};
-  for (const auto& joint : coordinates_at(t, y, z)) {
+  for (const auto& joint : coordinates_at(led(t, z), y, z)) {
     state.near.emplace_back();
     for (const TimeJet<Scalar>& coordinate : joint) state.near.back().push_back(coordinate.value);
   }
@@ -125,7 +136,7 @@ Pose<TimeJet<Scalar>> DescriptorReference<Scalar>::body_pose(std::size_t joint,
 template <class Scalar>
 std::vector<AbsoluteBody<Scalar>> DescriptorReference<Scalar>::absolute_state(
     Scalar t, const Eigen::VectorX<Scalar>& y, const Eigen::VectorX<Scalar>& z) const {
-  const Coordinates coordinates = coordinates_at(t, y, z);
+  const Coordinates coordinates = coordinates_at(led(t, z), y, z);
   std::vector<Pose<TimeJet<Scalar>>> poses(bodies_.size());
   for (const model::JointIndex index : model::depth_first(mechanism_)) {
     const auto& joint = joints_[index.value];
@@ -153,27 +164,35 @@ Eigen::MatrixX<Scalar> DescriptorReference<Scalar>::tree_velocities(Scalar t, co
     return x;
   };
   Eigen::MatrixX<Scalar> X(6 * Eigen::Index(bodies_.size()), z.size());
-  const Eigen::VectorX<Scalar> still = velocities(Eigen::VectorX<Scalar>::Zero(z.size()));
-  for (Eigen::Index k = 0; k < z.size(); ++k)
-    X.col(k) = velocities(Eigen::VectorX<Scalar>::Unit(z.size(), k)) - still;
+  Eigen::VectorX<Scalar> at_rest = z;  // but for states, which motions may follow
+  at_rest.head(Eigen::Index(layout_.first_state())).setZero();
+  const Eigen::VectorX<Scalar> still = velocities(at_rest);
+  X.rightCols(Eigen::Index(layout_.state_count)).setZero();
+  for (Eigen::Index k = 0; k < Eigen::Index(layout_.first_state()); ++k) {
+    Eigen::VectorX<Scalar> moving = at_rest;
+    moving[k] = 1;
+    X.col(k) = velocities(moving) - still;
+  }
   return X;
 }
 
 // NOLINTBEGIN(bugprone-macro-parentheses): a type takes none
-#define JOURDAIN_INSTANTIATE(S)                                                                       \
-  template TimeJet<S> DescriptorReference<S>::prescribed(const model::Expression&, S) const;          \
-  template typename DescriptorReference<S>::Coordinates DescriptorReference<S>::coordinates_at(       \
-      S, const Eigen::VectorX<S>&, const Eigen::VectorX<S>&) const;                                   \
-  template typename DescriptorReference<S>::Coordinates DescriptorReference<S>::coordinates_near(     \
-      S, const std::vector<std::vector<S>>&) const;                                                   \
-  template AbsoluteState<S> DescriptorReference<S>::absolute(S, const Eigen::VectorX<S>&,             \
-                                                             const Eigen::VectorX<S>&) const;         \
-  template Pose<TimeJet<S>> DescriptorReference<S>::body_pose(                                        \
-      std::size_t, const Pose<TimeJet<S>>&, const DescriptorReference<S>::Coordinates&,               \
-      const Eigen::VectorX<S>&, const Eigen::VectorX<S>&) const;                                      \
-  template Eigen::MatrixX<S> DescriptorReference<S>::tree_velocities(S, const Eigen::VectorX<S>&,     \
-                                                                     const Eigen::VectorX<S>&) const; \
-  template std::vector<AbsoluteBody<S>> DescriptorReference<S>::absolute_state(                       \
+#define JOURDAIN_INSTANTIATE(S)                                                                        \
+  template TimeJet<S> DescriptorReference<S>::prescribed(                                              \
+      const model::Expression&, const typename DescriptorReference<S>::Led&, int) const;               \
+  template typename DescriptorReference<S>::Coordinates DescriptorReference<S>::coordinates_at(        \
+      const typename DescriptorReference<S>::Led&, const Eigen::VectorX<S>&, const Eigen::VectorX<S>&) \
+      const;                                                                                           \
+  template typename DescriptorReference<S>::Coordinates DescriptorReference<S>::coordinates_near(      \
+      const typename DescriptorReference<S>::Led&, const std::vector<std::vector<S>>&) const;          \
+  template AbsoluteState<S> DescriptorReference<S>::absolute(S, const Eigen::VectorX<S>&,              \
+                                                             const Eigen::VectorX<S>&) const;          \
+  template Pose<TimeJet<S>> DescriptorReference<S>::body_pose(                                         \
+      std::size_t, const Pose<TimeJet<S>>&, const DescriptorReference<S>::Coordinates&,                \
+      const Eigen::VectorX<S>&, const Eigen::VectorX<S>&) const;                                       \
+  template Eigen::MatrixX<S> DescriptorReference<S>::tree_velocities(S, const Eigen::VectorX<S>&,      \
+                                                                     const Eigen::VectorX<S>&) const;  \
+  template std::vector<AbsoluteBody<S>> DescriptorReference<S>::absolute_state(                        \
       S, const Eigen::VectorX<S>&, const Eigen::VectorX<S>&) const;
 JOURDAIN_INSTANTIATE(JOURDAIN_SCALAR)
 #undef JOURDAIN_INSTANTIATE

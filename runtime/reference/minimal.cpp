@@ -109,21 +109,24 @@ template <class Scalar>
 typename Reference<Scalar>::Forces Reference<Scalar>::forces(const State<Scalar>& state,
                                                              const VectorX<Scalar>& u) const {
   JD_CHECK(u.size() == Eigen::Index(input_count()), "{} values for {} inputs", u.size(), input_count());
-  Forces at{state, u, body_frames(state), {}, VectorX<Scalar>(column_count())};
+  const State<Scalar> whole{state.t, state.y, state.z, u};
+  Forces at{whole, u, body_frames(whole), {}, VectorX<Scalar>(column_count())};
   for (const model::Frame& frame : mechanism_.frames) at.frames.push_back(placed(at.bodies, frame));
   at.rates.head(state.z.size()) = state.z;
   for (std::size_t i = 0; i < prescribed_.size(); ++i)
     at.rates[state.z.size() + Eigen::Index(i)] =
-        coordinate(prescribed_[i].first, prescribed_[i].second, state).first;
+        coordinate(prescribed_[i].first, prescribed_[i].second, at.state).first;
   return at;
 }
 
 template <class Scalar>
 Scalar Reference<Scalar>::largest_angle(const State<Scalar>& state) const {
   auto largest = Scalar(std::numbers::pi);
+  State<Scalar> whole = state;  // angles depend on no input
+  if (whole.u.size() == 0) whole.u = VectorX<Scalar>::Zero(Eigen::Index(input_count()));
   for (const auto& [joint, which] : prescribed_)
     if (mechanism_.joints[joint].coordinates[which].angular)
-      largest = std::max(largest, Bounded<Scalar>(coordinate(joint, which, state).value).scale);
+      largest = std::max(largest, Bounded<Scalar>(coordinate(joint, which, whole).value).scale);
   return largest;
 }
 
@@ -191,9 +194,10 @@ Terms<Scalar> Reference<Scalar>::all_columns(const Forces& at) const {
 /// The rows of z; the known accelerations of prescribed coordinates go into k̄.
 template <class Scalar>
 Terms<Scalar> Reference<Scalar>::evaluate(const State<Scalar>& state, const VectorX<Scalar>& u) const {
-  Terms<Scalar> terms = all_columns(forces(state, u));
+  const Forces at = forces(state, u);
+  Terms<Scalar> terms = all_columns(at);
   const auto nz = Eigen::Index(coordinate_count()), rest = Eigen::Index(prescribed_.size());
-  const VectorX<Scalar> accelerations = prescribed_accelerations(state);
+  const VectorX<Scalar> accelerations = prescribed_accelerations(at.state);
   const VectorX<Scalar> k = terms.k_bar.head(nz) - terms.M.topRightCorner(nz, rest) * accelerations;
   const VectorX<Scalar> k_s =
       terms.k_scale.head(nz) + terms.M_scale.topRightCorner(nz, rest) * accelerations.cwiseAbs();

@@ -43,6 +43,8 @@ struct State {
   Scalar t = 0;       ///< s
   VectorX<Scalar> y;  ///< rad or m; unit quaternions w x y z
   VectorX<Scalar> z;  ///< rad/s or m/s
+  /// Inputs, where prescribed accelerations depend on them; `evaluate` and `outputs` have their own.
+  VectorX<Scalar> u = {};
 };
 
 /// Motion of a point and of the frame that it is fixed in: v = J_t z + v̄, ω = J_r z + ω̄, a = J_t ż + ā, ω̇ =

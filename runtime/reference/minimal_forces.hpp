@@ -8,7 +8,7 @@ namespace jourdain::reference {
 /// A state with everything that forces depend on.
 template <class Scalar>
 struct Reference<Scalar>::Forces {
-  const State<Scalar>& state;
+  const State<Scalar> state;  // with its inputs
   const VectorX<Scalar>& u;
   std::vector<FrameMotion> bodies, frames;
   VectorX<Scalar> rates;  // of all columns, prescribed ones too

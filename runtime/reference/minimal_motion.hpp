@@ -1,7 +1,9 @@
 // Implementation of Reference: each joint's own kinematics. For minimal.cpp only.
 #pragma once
 
+#include "model/motion_sources.hpp"
 #include "reference/frame_motion.hpp"
+#include "support/check.hpp"
 
 namespace jourdain::reference {
 
@@ -55,7 +57,16 @@ template <class Scalar>
 Taylor<Scalar> Reference<Scalar>::coordinate(std::size_t joint, std::size_t which,
                                              const State<Scalar>& state) const {
   const model::Coordinate& coordinate = mechanism_.joints[joint].coordinates[which];
-  if (coordinate.motion) return taylor(*coordinate.motion, state.t);
+  if (coordinate.motion)
+    return model::motion_taylor<Scalar>(
+        *coordinate.motion, mechanism_.states, parameters_, [&](const model::Variable& v) -> Scalar {
+          using Kind = model::Variable::Kind;
+          if (v.kind == Kind::kTime) return state.t;
+          if (v.kind == Kind::kState) return state.z[Eigen::Index(layout_.first_state() + v.index)];
+          JD_CHECK(v.kind == Kind::kInput && Eigen::Index(v.index) < state.u.size(),
+                   "a motion depends on variable kind {}", int(v.kind));
+          return state.u[Eigen::Index(v.index)];
+        });
   const model::JointEntries& entries = layout_.joints[joint];
   return {state.y[Eigen::Index(*entries.position[which])], state.z[Eigen::Index(*entries.velocity[which])],
           0};

@@ -144,7 +144,7 @@ std::vector<OutputValue<Scalar>> Reference<Scalar>::outputs(const State<Scalar>&
   const Forces at = forces(state, u);
   const Terms<Scalar> terms = all_columns(at);
   Accelerations all{VectorX<Scalar>(column_count()), VectorX<Scalar>(column_count())};
-  const VectorX<Scalar> prescribed = prescribed_accelerations(state);
+  const VectorX<Scalar> prescribed = prescribed_accelerations(at.state);
   all.values << zdot, prescribed;
   all.scales << zdot_scale, prescribed.cwiseAbs();
   std::vector<OutputValue<Scalar>> values;

@@ -42,6 +42,8 @@ class TreeStates {
       const Eigen::Map<const Eigen::Vector4d> q(point.x.data() + s.position), turn(rates.data() + s.position);
       z.segment<3>(Eigen::Index(s.velocity)) = 4 * turning(q).transpose() * turn;
     }
+    const auto states = Eigen::Index(layout_.state_count);
+    z.tail(states) = to_vector(point.x).tail(states);
     return z;
   }
 

@@ -25,6 +25,22 @@ auto set_time(State& state, Real t, int) -> decltype(void(state.t)) { state.t = 
 template <class State, class Real>
 void set_time(State&, Real, long) {}
 
+// With inputs where prescribed accelerations depend on them.
+template <class Model, class State, class Input, class Array>
+auto inertia_terms(const Model& model, const State& state, const Input&, Array& k, int)
+    -> decltype(k_bar(model, state, k)) { k_bar(model, state, k); }
+template <class Model, class State, class Input, class Array>
+void inertia_terms(const Model& model, const State& state, const Input& input, Array& k, long) {
+  k_bar(model, state, input, k);
+}
+template <class Model, class State, class Input, class Array>
+auto missing_forces(const Model& model, const State& state, const Input&, const Array& zdot, Array& tau, int)
+    -> decltype(inverse_dynamics(model, state, zdot, tau)) { inverse_dynamics(model, state, zdot, tau); }
+template <class Model, class State, class Input, class Array>
+void missing_forces(const Model& model, const State& state, const Input& input, const Array& zdot, Array& tau, long) {
+  inverse_dynamics(model, state, input, zdot, tau);
+}
+
 template <class Model>
 void evaluate(const Model& model, double t, const double* y, const double* z, const double* u, const double* zdot,
               double h, double* out) {
@@ -49,14 +65,14 @@ void evaluate(const Model& model, double t, const double* y, const double* z, co
     mass_matrix(model, state, M);
     for (int i = 0; i < nz; ++i)
       for (int j = i; j < nz; ++j) *out++ = M[j][i] == M[i][j] ? static_cast<double>(M[i][j]) : 1e300;
-    k_bar(model, state, v);
+    inertia_terms(model, state, input, v, 0);
     write(v);
     q_bar(model, state, input, v);
     write(v);
     forward_dynamics(model, state, input, v);
     write(v);
     for (int i = 0; i < nz; ++i) a[i] = static_cast<Real>(zdot[i]);
-    inverse_dynamics(model, state, a, v);
+    missing_forces(model, state, input, a, v, 0);
     write(v);
   }
   *out++ = static_cast<double>(kinetic_energy(model, state));

@@ -25,10 +25,20 @@ void visit_functions(const Model& model, const typename Model::State& state,
   visit("initial_state", [&] { initial_state(model); });
   if constexpr (Model::velocity_count > 0) {
     visit("mass_matrix", [&] { mass_matrix(model, state, results.M); });
-    visit("k_bar", [&] { k_bar(model, state, results.k); });
+    visit("k_bar", [&] {
+      if constexpr (requires { k_bar(model, state, results.k); })
+        k_bar(model, state, results.k);
+      else  // prescribed accelerations depend on inputs
+        k_bar(model, state, input, results.k);
+    });
     visit("q_bar", [&] { q_bar(model, state, input, results.q); });
     visit("forward_dynamics", [&] { forward_dynamics(model, state, input, results.zdot); });
-    visit("inverse_dynamics", [&] { inverse_dynamics(model, state, results.zdot, results.tau); });
+    visit("inverse_dynamics", [&] {
+      if constexpr (requires { inverse_dynamics(model, state, results.zdot, results.tau); })
+        inverse_dynamics(model, state, results.zdot, results.tau);
+      else
+        inverse_dynamics(model, state, input, results.zdot, results.tau);
+    });
   }
   if constexpr (Model::position_count != Model::velocity_count)
     visit("position_rate", [&] { position_rate(model, state, results.ydot); });

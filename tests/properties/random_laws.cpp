@@ -40,6 +40,7 @@ class Laws {
     output.value = law(quantity(), quantity());
     mechanism_.outputs.push_back(output);
     if (random_.chance(0.5)) add_states();
+    lead_motions();
     return std::move(mechanism_);
   }
 
@@ -50,6 +51,34 @@ class Laws {
     tests::add_states(mechanism_, random_.below(1000));
     for (model::StateVariable& state : mechanism_.states)
       state.rate = state.rate + number(-1, 1) * law(quantity(), quantity());
+  }
+
+  /// Most prescribed coordinates follow two states: their velocity any smooth law, their acceleration any law of time,
+  /// inputs and states.
+  void lead_motions() {
+    if (model::lay_out_coordinates(mechanism_).position_count() == 0) return;
+    for (model::Joint& joint : mechanism_.joints)
+      for (model::Coordinate& coordinate : joint.coordinates)
+        if (coordinate.motion && random_.chance(0.7)) lead(coordinate);
+  }
+
+  void lead(model::Coordinate& coordinate) {
+    const std::size_t first = mechanism_.states.size();
+    const Expression t = variable(Variable::Kind::kTime), place = variable(Variable::Kind::kState, first),
+                     speed = variable(Variable::Kind::kState, first + 1);
+    std::vector<Expression> known = {t, place};
+    const std::size_t inputs = mechanism_.actuators.size() + mechanism_.inputs.size();
+    for (std::size_t i = 0; i < inputs; ++i) known.push_back(variable(Variable::Kind::kInput, i));
+    for (std::size_t i = 0; i < first; ++i) known.push_back(variable(Variable::Kind::kState, i));
+    const auto any = [&] { return known[random_.below(known.size())]; };
+    for (const char* what : {"place", "speed"}) {
+      model::StateVariable& state = mechanism_.states.emplace_back();
+      state.name = fmt::format("{}_of_{}", what, coordinate.name);
+      state.initial = number(-1, 1);
+    }
+    mechanism_.states[first].rate = number(-1, 1) * speed + number(-0.5, 0.5) * smooth(place, t);
+    mechanism_.states[first + 1].rate = number(-1, 1) * law(any(), any()) - number(0, 1) * speed;
+    coordinate.motion = *coordinate.motion + number(-1, 1) * place + number(-0.3, 0.3) * smooth(place, t);
   }
 
   void add_to(std::size_t j, std::size_t c) {
@@ -198,6 +227,11 @@ model::Mechanism random_scene_with_calls(std::uint64_t seed) {
   for (model::Spring& spring : mechanism.springs)
     if (!spring.potential) call(spring.law, variable(Variable::Kind::kArgument));
   for (model::StateVariable& state : mechanism.states) call(state.rate, time);
+  for (model::Joint& joint : mechanism.joints) {
+    call(joint.curve[2], variable(Variable::Kind::kArgument));
+    for (model::Coordinate& coordinate : joint.coordinates)
+      if (coordinate.motion) call(*coordinate.motion, time);
+  }
   for (model::Load& load : mechanism.loads)
     for (std::size_t k = 0; k < 3; ++k) call(load.force[k], time);
   return mechanism;

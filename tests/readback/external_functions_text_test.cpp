@@ -53,6 +53,8 @@ TEST(ExternalFunctionsText, IsReadCallByCallInCpp) {
   expect_seen(text, kernels, "functions.grip(", "functions.hardening(");
   expect_seen(text, kernels, "functions.grip_slip(", "functions.grip_load(");
   expect_seen(text, kernels, "functions.hardening(", "functions.hardening_x(");
+  expect_seen(text, kernels, "functions.cam_angle(", "functions.cam(");
+  expect_seen(text, kernels, "functions.cam_angle_angle(", "functions.cam_angle(");
   expect_seen(text, kernels, "model.functions.grip(", "model.grip(");
   expect_seen(text, kernels, "grip(state.z[0]", "grip(state.z[1]");
   expect_seen(text, kernels, ", Real(0.4))", ", Real(0.5))");

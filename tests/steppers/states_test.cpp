@@ -13,6 +13,7 @@
 #include "quarter_car_steps/quarter_car_steps_kernels.hpp"
 #include "servo_arm_all/servo_arm_all_kernels.hpp"
 #include "servo_arm_slow/servo_arm_slow_kernels.hpp"
+#include "shaking_table_all/shaking_table_all_kernels.hpp"
 #include "standing_quadruped_steps/standing_quadruped_steps_kernels.hpp"
 #include "steppers/measured_order.hpp"
 #include "steppers/visit_steppers.hpp"
@@ -188,6 +189,79 @@ struct QuarterCar {
   }
 };
 
+/// models/shaking_table.toml by hand: ways of the floors, their rates, place and speed of the table.
+struct ShakingTable {
+  Long w = 40, d = 0.8, m = 12, k = 9e3, c = 6, table = 80;
+
+  Long table_acceleration(const Numbers<6>& x, Long command) const {
+    return w * w * (command - x[4]) - 2 * d * w * x[5];
+  }
+  Numbers<6> rates(const Numbers<6>& x, Long command) const {
+    const auto [lower, upper, lower_rate, upper_rate, place, speed] = x;
+    const Long a = table_acceleration(x, command);
+    const Long on_lower = -k * lower - c * lower_rate, on_upper = -k * upper - c * upper_rate;
+    const Long first = (on_lower - on_upper) / m, second = on_upper / m;  // of the floors
+    return {lower_rate, upper_rate, first - a, second - first, speed, a};
+  }
+};
+
+/// The command jumps every tenth of a second: the table's acceleration does, its place and speed do not.
+TEST(States, StepsOfABuildingOnATableThatStatesLeadAreThoseOfItsEquations) {
+  const ShakingTable by_hand;
+  shaking_table_all::Parameters<Long> p;
+  p.d = by_hand.d;
+  const shaking_table_all::Model<Long> model(p);
+  auto state = shaking_table_all::initial_state(model);
+  Numbers<6> expected{};
+  Long worst = 0, drives = 0, most = 0;
+  for (int n = 0; n < 2000; ++n) {
+    shaking_table_all::Input<Long> input{};
+    input.u[0] = 0.05L * std::sin(3.0L * static_cast<Long>(n / 100));
+    shaking_table_all::rk4_step(model, state, input, 1e-3L);
+    expected = rk4(by_hand, expected, input.u[0], 1e-3L);
+    for (std::size_t i = 0; i < 6; ++i) {
+      const Long found = i < 2 ? state.y[i] : state.z[i - 2];
+      worst = std::max(worst, std::fabs(found - expected[i]) / (1 + std::fabs(expected[i])));
+    }
+    shaking_table_all::Outputs<Long> outputs;
+    shaking_table_all::outputs(model, state, input, outputs);
+    const Numbers<6> rates = by_hand.rates(expected, input.u[0]);
+    const Long drive = by_hand.table * rates[5] + by_hand.m * (2 * (rates[5] + rates[2]) + rates[3]);
+    drives = std::max(drives, std::fabs(outputs.drive - drive) / (1 + std::fabs(drive)));
+    most = std::max(most, std::fabs(drive));
+  }
+  EXPECT_LE(worst, 1e-15L);
+  EXPECT_LE(drives, 1e-14L);
+  EXPECT_GE(most, 1000);  // N
+}
+
+/// Of k_bar, which takes inputs here, of inverse dynamics and of the implicit steps' Jacobian.
+TEST(States, ThatLeadAMotionAreInEveryFunction) {
+  const ShakingTable by_hand;
+  shaking_table_all::Parameters<Long> p;
+  p.d = by_hand.d;
+  const shaking_table_all::Model<Long> model(p);
+  auto state = shaking_table_all::initial_state(model);
+  for (int i = 0; i < 2; ++i) state.y[i] = 0.01L * (i + 1);
+  for (int i = 0; i < 4; ++i) state.z[i] = 0.3L - 0.1L * i;
+  shaking_table_all::Input<Long> input{};
+  input.u[0] = 0.02L;
+  Long k[4], q[4], zdot[4], tau[4];
+  shaking_table_all::k_bar(model, state, input, k);
+  shaking_table_all::q_bar(model, state, input, q);
+  const Long a = by_hand.table_acceleration({0, 0, 0, 0, state.z[2], state.z[3]}, 0.02L);
+  EXPECT_NEAR(double(k[0]), double(-2 * by_hand.m * a), 1e-13 * std::fabs(double(k[0])));
+  EXPECT_NEAR(double(k[1]), double(-by_hand.m * a), 1e-13 * std::fabs(double(k[1])));
+  shaking_table_all::forward_dynamics(model, state, input, zdot);
+  shaking_table_all::inverse_dynamics(model, state, input, zdot, tau);
+  for (int i = 0; i < 2; ++i) EXPECT_NEAR(double(tau[i]), 0, 1e-13) << i;
+  shaking_table_all::Linearization<Long> at;
+  shaking_table_all::linearize(model, state, input, at);
+  EXPECT_NEAR(double(at.A[2][4]), double(by_hand.w * by_hand.w), 1e-9);  // of the lower floor by the table's place
+  EXPECT_NEAR(double(at.B[2][0]), double(-by_hand.w * by_hand.w), 1e-9);
+  EXPECT_NEAR(double(at.A[3][4]), 0, 1e-9);
+}
+
 /// Over the bump and beyond, braking to a locked wheel and driving: the wheel leaves the ground and comes back.
 TEST(States, StepsOfAQuarterCarAreThoseOfItsEquations) {
   const QuarterCar car;
@@ -277,6 +351,13 @@ TEST(States, EveryStepperHasItsOrder) {
     EXPECT_NEAR(measured, order, 0.1) << "driven_four_bar " << name;
   };
   JOURDAIN_VISIT_STEPPERS(driven_four_bar_all, Long, linkage);
+  const auto building = [](const std::string& name, int order, auto step, auto& history) {
+    const auto start = shaking_table_all::initial_state(shaking_table_all::Model<Long>());
+    shaking_table_all::Input<Long> input{};
+    input.u[0] = 0.05L;
+    EXPECT_NEAR(measured_order(start, input, 0.05L, step, history), order, 0.15) << "shaking_table " << name;
+  };
+  JOURDAIN_VISIT_STEPPERS(shaking_table_all, Long, building);
 }
 
 }  // namespace

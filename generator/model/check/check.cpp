@@ -109,6 +109,7 @@ void check_numbers(const Mechanism& mechanism, Diagnostics& diagnostics) {
 void check_mechanism(const Mechanism& mechanism, Diagnostics& diagnostics, support::Severity triangle) {
   check_numbers(mechanism, diagnostics);
   if (!check_graph(mechanism, diagnostics)) return;
+  check_motions(mechanism, diagnostics);
   check_loops(mechanism, diagnostics);
   check_inertias(mechanism, diagnostics, triangle);
 }

@@ -28,6 +28,10 @@ bool check_graph(const Mechanism& mechanism, support::Diagnostics& diagnostics);
 /// joints must have passed `check_graph`.
 void check_loops(const Mechanism& mechanism, support::Diagnostics& diagnostics);
 
+/// Motions that follow states have a velocity and an acceleration that are known and finite at the start; beside loops
+/// there are none, and no external functions in motions or curves.
+void check_motions(const Mechanism& mechanism, support::Diagnostics& diagnostics);
+
 /// Inertia about the centre of mass positive semidefinite for each body, triangle inequality of the principal
 /// moments after merging bodies joined by fixed joints, both at the parameters' default values. Lumped bodies
 /// need no more than moments of inertia about their origin that are not negative; nothing is merged with

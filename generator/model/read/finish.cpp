@@ -64,6 +64,7 @@ std::optional<Mechanism> finish_reading(Part part, const ReadOptions& options, D
   if (mechanism.snap) snap_directions(mechanism, options.snap, diagnostics);
   check_numbers(mechanism, diagnostics);
   const bool tree = complete.structure && check_graph(mechanism, diagnostics);
+  if (tree) check_motions(mechanism, diagnostics);
   if (tree) check_loops(mechanism, diagnostics);
   if (tree && complete.numbers) weld_massless_ends(mechanism, diagnostics);
   if (tree && complete.numbers) mechanism.indefinite = check_inertias(mechanism, diagnostics, triangle);

@@ -164,7 +164,7 @@ KeySection coordinate_section() {
            {"damping", "number", "N m s/rad", "0", "of a damper"},
            {"friction", "number", "N m", "0", "-friction v/sqrt(v² + friction_speed²)"},
            {"friction_speed", "number", "rad/s", "1e-3", "where friction is 0.7 of its largest"},
-           {"motion", "expression of t", "rad", "none", "prescribes the coordinate"},
+           {"motion", "expression of t", "rad", "none", "prescribes the coordinate; may name states, too"},
            {"initial_position", "number", "rad", "0", "where it starts; with loops moved as far as they ask"},
            {"initial_velocity", "number", "rad/s", "0", ""},
            {"range", "2 constants", "rad", "anywhere",

@@ -83,6 +83,7 @@ class ConstraintReader {
                                                               "it is of inputs or states")),
                             mechanism);
     refuse_kinks(table_, "velocity", loop.residual);
+    refuse_calls(table_, "velocity", loop.residual);
   }
 
   void read_radii(Loop& loop) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "model/joint_kinds.hpp"
+#include "model/motion_sources.hpp"
 #include "model/read/toml_names.hpp"
 #include "model/read/toml_sections.hpp"
 #include "model/taylor.hpp"
@@ -78,7 +79,6 @@ void refuse_kinks(const TomlTable& table, std::string_view key, const Expression
     table.error(key,
                 fmt::format("{} may have a kink, where velocities or accelerations jump", table.quoted(key)),
                 "it is differentiated twice; smooth_step, smooth_max and tanh have none");
-  refuse_calls(table, key, function);
 }
 
 Expression read_time_function(TomlFile& file, const TomlTable& table, std::string_view key,
@@ -87,6 +87,8 @@ Expression read_time_function(TomlFile& file, const TomlTable& table, std::strin
   Expression function = table.function(key, needed, scope);
   if (file.error_count() != mark) return function;
   refuse_kinks(table, key, function);
+  // Of states and functions that are not known yet there is no value here.
+  if (function.calls(support::Function::kCall) || !states_in(function).empty()) return function;
   std::vector<Taylor<double>> parameters;
   for (const double value : file.values()) parameters.push_back({value, 0, 0});
   const auto at_start = function.evaluate<Taylor<double>>(
@@ -121,7 +123,7 @@ void read_coordinate(TomlFile& file, const TomlTable& table, const CoordinateNee
   if (table.has("initial_position")) coordinate.position_where = table.where("initial_position");
   if (table.has("initial_velocity")) coordinate.velocity_where = table.where("initial_velocity");
   if (table.has("motion"))
-    coordinate.motion = read_time_function(file, table, "motion", needs.position, time_scope());
+    coordinate.motion = read_time_function(file, table, "motion", needs.position, file.motion_scope());
   read_range(file, table, needs.position, coordinate);
   if (!coordinate.motion) return;
   if (table.has("motion")) coordinate.motion_where = table.where("motion");

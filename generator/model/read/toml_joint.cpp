@@ -208,7 +208,12 @@ class JointReader {
     const Scope scope = {{"s", {.kind = Variable::Kind::kArgument}, Measure::open()}};
     joint.curve = table_.functions("curve", needed::kLength, scope);
     if (file_.error_count() != mark) return;
-    for (const Expression& component : joint.curve) refuse_kinks(table_, "curve", component);
+    bool is_known = true;
+    for (const Expression& component : joint.curve) {
+      refuse_kinks(table_, "curve", component);
+      is_known = is_known && !component.calls(support::Function::kCall);
+    }
+    if (!is_known) return;
     std::vector<Taylor<double>> parameters;
     for (const double value : file_.values()) parameters.push_back({value, 0, 0});
     const double start = file_.value(joint.coordinates[0].initial_position);

@@ -130,6 +130,7 @@ class LoopReader {
     const std::size_t mark = file_.error_count();
     loop.length =
         read_time_function(file_, table_, "length", needed::kLength, length_scope(file_, mechanism));
+    refuse_calls(table_, "length", loop.length);
     if (file_.error_count() != mark) return;
     const auto start = loop.length.evaluate<double>(
         file_.values(), [](double v) { return v; }, [](const Variable&) { return 0.0; });
@@ -148,6 +149,7 @@ class LoopReader {
                                           "it is of more than t, coordinates, positions and axes of frames")),
         mechanism);
     refuse_kinks(table_, "residual", loop.residual);
+    refuse_calls(table_, "residual", loop.residual);
     if (loop.residual.calls(support::Function::kAtan2))
       table_.error("residual",
                    fmt::format("{} has an arctangent, which jumps by a turn", table_.quoted("residual")),

@@ -50,16 +50,19 @@ class TomlReader {
     check_loop_options(imports);
     read_lookup_tables(file_, repeats_.tables("table"), chain_);
     read_functions(file_, repeats_.tables("function"), options_);
+    const TomlTables states = repeats_.tables("state"), memories = repeats_.tables("memory"),
+                     signals = repeats_.tables("signal"), inputs = repeats_.tables("input");
+    declare_motion_scope(file_, {states, memories, signals}, inputs, mechanism);
     read_bodies(file_, repeats_.tables("body"), mechanism);
     read_joints(file_, repeats_.tables("joint"), mechanism);
     read_overrides(file_, repeats_.tables("override"), mechanism);
     read_actuators(file_, repeats_.tables("actuator"), mechanism);
     read_frames(file_, repeats_.tables("frame"), mechanism);
     attach_imports(file_, imports, mechanism);
-    read_inputs(file_, repeats_.tables("input"), mechanism);
+    read_inputs(file_, inputs, mechanism);
     read_frictions(file_, repeats_.tables("friction"), mechanism);
-    read_states(file_, {repeats_.tables("state"), repeats_.tables("memory"), repeats_.tables("signal")},
-                mechanism);
+    read_states(file_, {states, memories, signals}, mechanism);
+    settle_motions(file_, mechanism);
     read_forces(file_, repeats_.tables("force"), mechanism);
     read_stops(file_, repeats_.tables("stop"), mechanism);
     read_contacts(file_, repeats_.tables("contact"), mechanism);

@@ -48,9 +48,20 @@ CoordinateNeeds coordinate_needs(const Mechanism& mechanism, const std::optional
 void read_coordinate(TomlFile& file, const TomlTable& table, const CoordinateNeeds& needs,
                      Coordinate& coordinate);
 
+/// The tables of states beside the mechanism.
+struct StateTables {
+  const TomlTables &states, &memories, &signals;
+};
+
+/// What motions may name from now on: t, states of `mechanism` and of the tables. Others are refused by name.
+void declare_motion_scope(TomlFile& file, const StateTables& tables, const TomlTables& inputs,
+                          const Mechanism& mechanism);
+/// States that motions of this file name become those of `mechanism`, which has all of them.
+void settle_motions(const TomlFile& file, Mechanism& mechanism);
+
 /// An error where `function`, which is differentiated, calls one of the user.
 void refuse_calls(const TomlTable& table, std::string_view key, const Expression& function);
-/// The same where it is differentiated twice; an error too where it may have a kink.
+/// An error where `function`, which is differentiated twice, may have a kink.
 void refuse_kinks(const TomlTable& table, std::string_view key, const Expression& function);
 
 /// A function of time, with finite first and second derivatives at t = 0 and the parameters' default values;
@@ -87,10 +98,6 @@ bool check_signal_name(TomlFile& file, const TomlTable& table, const char* what,
 
 /// All [[friction]] tables: forces on coordinates and a state each.
 void read_frictions(TomlFile& file, const TomlTables& section, Mechanism& mechanism);
-
-struct StateTables {
-  const TomlTables &states, &memories, &signals;
-};
 
 /// All [[state]], [[memory]] and [[signal]] tables: rates and updates may name all of them, and what forces may name; a
 /// signal those before it. `file` has declared the signals then.

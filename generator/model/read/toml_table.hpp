@@ -74,6 +74,9 @@ class TomlFile {
   /// A signal that expressions may name from now on.
   void declare(Signal signal) { signals_.push_back(std::move(signal)); }
   const std::vector<Signal>& signals() const { return signals_; }
+  /// What prescribed motions may name from now on.
+  void declare(Scope motion_scope) { motion_scope_ = std::move(motion_scope); }
+  const Scope& motion_scope() const { return motion_scope_; }
   /// The names that expressions may use, in order: those of parameters, then derived ones.
   const std::vector<DeclaredParameter>& declared() const { return parameters_; }
 
@@ -144,6 +147,7 @@ class TomlFile {
   std::vector<double> values_;        ///< of the others
   std::vector<Callable> callables_;
   std::vector<Signal> signals_;
+  Scope motion_scope_;
   std::optional<Repetition> repetition_;
   std::map<std::pair<int, int>, std::int64_t> repeated_errors_;  ///< index by line and column
   Completeness complete_;

@@ -25,7 +25,18 @@ struct rig::Functions {
   Real hardening(const Real& x) const noexcept { return x + Real(3) * x * x * x; }
   Real hardening_x(const Real& x) const noexcept { return Real(1) + Real(9) * x * x; }
 
+  Real cam(const Real& angle, const Real& height) const noexcept { return height * (Real(1) - cos(angle)); }
+  Real cam_angle(const Real& angle, const Real& height) const noexcept { return height * sin(angle); }
+  Real cam_angle_angle(const Real& angle, const Real& height) const noexcept { return height * cos(angle); }
+  Real cam_angle_angle_angle(const Real& angle, const Real& height) const noexcept {
+    return -height * sin(angle);
+  }
+
  private:
+  static double sin(double x) noexcept { return ::sin(x); }
+  static float sin(float x) noexcept { return ::sinf(x); }
+  static double cos(double x) noexcept { return ::cos(x); }
+  static float cos(float x) noexcept { return ::cosf(x); }
   static double tanh(double x) noexcept { return ::tanh(x); }
   static float tanh(float x) noexcept { return ::tanhf(x); }
 };

@@ -28,6 +28,23 @@ static double hardening_x(void *context, double x) {
   return 1 + 9 * x * x;
 }
 
+static double cam(void *context, double angle, double lift) {
+  ++*(int *)context;
+  return lift * (1 - cos(angle));
+}
+static double cam_angle(void *context, double angle, double lift) {
+  ++*(int *)context;
+  return lift * sin(angle);
+}
+static double cam_angle_angle(void *context, double angle, double lift) {
+  ++*(int *)context;
+  return lift * cos(angle);
+}
+static double cam_angle_angle_angle(void *context, double angle, double lift) {
+  ++*(int *)context;
+  return -lift * sin(angle);
+}
+
 int main(void) {
   rig_parameters rig_parameters_;
   plain_parameters plain_parameters_;
@@ -51,6 +68,10 @@ int main(void) {
   rig_.functions.grip_slip = grip_slip;
   rig_.functions.grip_load = grip_load;
   rig_.functions.hardening = hardening;
+  rig_.functions.cam = cam;
+  rig_.functions.cam_angle = cam_angle;
+  rig_.functions.cam_angle_angle = cam_angle_angle;
+  rig_.functions.cam_angle_angle_angle = cam_angle_angle_angle;
   rig_.functions.hardening_x = hardening_x;
   rig_set_model(&rig_, &rig_parameters_);
   plain_set_model(&plain_, &plain_parameters_);
@@ -59,12 +80,12 @@ int main(void) {
   for (i = 0; i < 1000; ++i) {
     rig_ros34pw2_step(&rig_, &a, &u, 1e-3, &e);
     plain_ros34pw2_step(&plain_, &b, &v, 1e-3, &f);
-    for (j = 0; j < 3; ++j) worst = fmax(worst, fabs(a.z[j] - b.z[j]));
+    for (j = 0; j < 5; ++j) worst = fmax(worst, fabs(a.z[j] - b.z[j]));
   }
   rig_linearize(&rig_, &a, &u, &A);
   plain_linearize(&plain_, &b, &v, &B);
-  for (i = 0; i < 5; ++i)
-    for (j = 0; j < 5; ++j) worst = fmax(worst, fabs(A.A[i][j] - B.A[i][j]));
+  for (i = 0; i < 7; ++i)
+    for (j = 0; j < 7; ++j) worst = fmax(worst, fabs(A.A[i][j] - B.A[i][j]));
   printf("%.1e %d\n", worst, calls);
   return worst < 1e-9 && calls > 1000 ? 0 : 1;
 }

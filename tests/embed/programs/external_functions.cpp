@@ -18,7 +18,7 @@ void compare(double a, double b) {
 template <class A, class B>
 void compare_states(const A& a, const B& b) {
   for (int i = 0; i < 2; ++i) compare(a.y[i], b.y[i]);
-  for (int i = 0; i < 3; ++i) compare(a.z[i], b.z[i]);
+  for (int i = 0; i < 5; ++i) compare(a.z[i], b.z[i]);
 }
 
 }  // namespace
@@ -50,16 +50,16 @@ int main() {
   rig::linearize(rig_model, a, u, A);
   plain::linearize(plain_model, b, v, B);
   double size = 0;
-  for (int i = 0; i < 5; ++i) {
-    for (int j = 0; j < 5; ++j) compare(A.A[i][j], B.A[i][j]);
-    for (int j = 0; j < 5; ++j) size += std::fabs(A.A[i][j]);
+  for (int i = 0; i < 7; ++i) {
+    for (int j = 0; j < 7; ++j) compare(A.A[i][j], B.A[i][j]);
+    for (int j = 0; j < 7; ++j) size += std::fabs(A.A[i][j]);
     compare(A.B[i][0], B.B[i][0]);
   }
-  for (int j = 0; j < 5; ++j) compare(A.C[0][j], B.C[0][j]);
+  for (int j = 0; j < 7; ++j) compare(A.C[0][j], B.C[0][j]);
 
   rig::Model<> stronger;
   stronger.functions.gain = 1.5;
-  double weak[3], strong[3];
+  double weak[5], strong[5];
   rig::forward_dynamics(rig_model, a, u, weak);
   rig::forward_dynamics(stronger, a, u, strong);
   const bool differs = std::fabs(strong[0] - weak[0]) > 1e-3;
