@@ -16,6 +16,7 @@
 #include "kinematics/numbers.hpp"
 #include "properties/effort.hpp"
 #include "properties/random_laws.hpp"
+#include "properties/random_mixture.hpp"
 #include "properties/random_scene.hpp"
 
 namespace jourdain::tests {
@@ -200,6 +201,10 @@ TEST(Derivatives, OfRandomScenesAgreeWithDifferencesInSixtyDigits) {
 
 TEST(Derivatives, OfLawsAgreeWithDifferencesInSixtyDigits) {
   expect_derivatives(random_scene_with_laws, kScenesWithLaws);
+}
+
+TEST(Derivatives, OfMixturesAgreeWithDifferencesInSixtyDigits) {
+  expect_derivatives([](std::uint64_t seed) { return random_mixture(3 * seed); }, kScenesWithLaws);
 }
 
 TEST(Derivatives, OfCallsOfTheUserAgreeWithDifferencesInSixtyDigits) {

@@ -12,6 +12,7 @@
 #include "emit/body.hpp"
 #include "properties/effort.hpp"
 #include "properties/random_laws.hpp"
+#include "properties/random_mixture.hpp"
 #include "properties/random_scene.hpp"
 #include "properties/to_toml.hpp"
 #include "reference/descriptor.hpp"
@@ -23,7 +24,7 @@ namespace {
 using Vector = reference::VectorX<long double>;
 
 const std::uint64_t kScenes = draws_all_cases() ? 520 : cases(260), kScenesWithLaws = cases(500),
-                    kScenesWithCalls = cases(120);
+                    kScenesWithCalls = cases(120), kMixtures = cases(120);
 // As for random trees: backward error in double, forward error over cond(M), entries of their term sum.
 constexpr double kBackward = 1e-13, kForward = 1e-14, kEntries = 1e-12;
 // Laws have a condition of their own: what rounds their arguments moves a force by its slope.
@@ -231,6 +232,13 @@ TEST(RandomScenes, WithCallsOfTheUserAgree) {
   expect_agreement(random_scene_with_calls, kScenesWithCalls, kForwardWithLaws);
 }
 
+/// Of random_mixture those without loops.
+model::Mechanism random_tree_mixture(std::uint64_t seed) { return random_mixture(3 * seed); }
+
+TEST(RandomScenes, WithElementsAndLawsAtOnceAgree) {
+  expect_agreement(random_tree_mixture, kMixtures, kForwardWithLaws);
+}
+
 TEST(RandomScenes, GiveTheSameOutputsWithEverySimplificationOff) {
   for (std::uint64_t seed = 0; seed < cases(80); ++seed) {
     const model::Mechanism mechanism = random_scene(seed);
@@ -254,7 +262,7 @@ TEST(RandomScenes, GiveTheSameOutputsWithEverySimplificationOff) {
 
 TEST(RandomScenes, AreAcceptedByTheCompiler) {
   for (std::uint64_t seed = 0; seed < cases(40); ++seed) {
-    for (const Draw draw : {random_scene, random_scene_with_laws, random_scene_with_calls}) {
+    for (const Draw draw : {random_scene, random_scene_with_laws, random_scene_with_calls, random_mixture}) {
       const CompiledModel compiled = compile(draw(seed), {});
       EXPECT_TRUE(compiled.verdict.accepted()) << seed << ": " << compiled.verdict.failures.front();
     }

@@ -14,6 +14,7 @@
 #include "properties/consistent_state.hpp"
 #include "properties/effort.hpp"
 #include "properties/random_loops.hpp"
+#include "properties/random_mixture.hpp"
 #include "properties/random_rolling.hpp"
 #include "properties/random_states.hpp"
 #include "reference/descriptor.hpp"
@@ -25,7 +26,7 @@ using Long = long double;
 using VectorL = reference::VectorX<Long>;
 using MatrixL = reference::MatrixX<Long>;
 
-const std::uint64_t kMechanisms = cases(120);
+const std::uint64_t kMechanisms = cases(120), kMixtures = cases(60);
 constexpr std::size_t kStates = 3;
 // Normwise, times the condition number: accelerations are solved with G M⁻¹ Gᵀ in double, with multipliers of
 // regularised.
@@ -160,6 +161,23 @@ TEST(Loops, MechanismsThatRollAccelerateAndLoadAsTheDescriptorFormSays) {
   }
   print("rolling", tally);
   EXPECT_GE(tally.states, 5 * cases(200) / 2);
+}
+
+TEST(Loops, MixturesWithElementsAndLawsAccelerateAndLoadAsTheDescriptorFormSays) {
+  Tally chosen, multipliers;
+  multipliers.of_redundant = chosen.of_redundant = 1e-7;
+  for (std::uint64_t seed = 0; seed < kMixtures; ++seed) {
+    if (seed % 3 == 0) continue;  // without loops
+    SCOPED_TRACE(fmt::format("seed {}", seed));
+    const model::Mechanism mechanism = random_mixture(seed);
+    const auto states = consistent_states(mechanism, seed, kStates);
+    ASSERT_TRUE(states);
+    compare(mechanism, {}, *states, chosen);
+    compare(mechanism, model::LoopTreatment::kMultipliers, *states, multipliers);
+  }
+  print("mixtures, chosen", chosen);
+  print("mixtures, multipliers", multipliers);
+  EXPECT_GE(chosen.states + multipliers.states, 3 * kMixtures);
 }
 
 TEST(Loops, EveryModelAcceleratesAndLoadsAsTheDescriptorFormSays) {

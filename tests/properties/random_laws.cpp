@@ -27,9 +27,9 @@ Expression call(const char* name, const std::vector<Expression>& arguments) {
 
 class Laws {
  public:
-  explicit Laws(std::uint64_t seed) : mechanism_(random_scene(seed)), random_(seed * 77 + 3) {}
+  Laws(model::Mechanism& mechanism, std::uint64_t seed) : mechanism_(mechanism), random_(seed * 77 + 3) {}
 
-  model::Mechanism run() {
+  void run() {
     for (std::size_t j = 0; j < mechanism_.joints.size(); ++j)
       for (std::size_t c = 0; c < mechanism_.joints[j].coordinates.size(); ++c) add_to(j, c);
     for (model::Spring& spring : mechanism_.springs) change(spring);
@@ -40,8 +40,7 @@ class Laws {
     output.value = law(quantity(), quantity());
     mechanism_.outputs.push_back(output);
     if (random_.chance(0.5)) add_states();
-    lead_motions();
-    return std::move(mechanism_);
+    if (mechanism_.loops.empty()) lead_motions();
   }
 
  private:
@@ -83,7 +82,7 @@ class Laws {
 
   void add_to(std::size_t j, std::size_t c) {
     model::Coordinate& coordinate = mechanism_.joints[j].coordinates[c];
-    if (coordinate.motion && random_.chance(0.7)) {
+    if (coordinate.motion && mechanism_.loops.empty() && random_.chance(0.7)) {
       const Expression t = variable(Variable::Kind::kTime);
       coordinate.motion = *coordinate.motion + number(-0.3, 0.3) * smooth(t, Expression(0.5) * t);
     }
@@ -196,13 +195,19 @@ class Laws {
     return table;
   }
 
-  model::Mechanism mechanism_;
+  model::Mechanism& mechanism_;
   Random random_;
 };
 
 }  // namespace
 
-model::Mechanism random_scene_with_laws(std::uint64_t seed) { return Laws(seed).run(); }
+void add_laws(model::Mechanism& mechanism, std::uint64_t seed) { Laws(mechanism, seed).run(); }
+
+model::Mechanism random_scene_with_laws(std::uint64_t seed) {
+  model::Mechanism mechanism = random_scene(seed);
+  add_laws(mechanism, seed);
+  return mechanism;
+}
 
 model::Mechanism random_scene_with_calls(std::uint64_t seed) {
   model::Mechanism mechanism = random_scene_with_laws(seed);
