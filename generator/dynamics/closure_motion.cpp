@@ -1,5 +1,6 @@
 #include "dynamics/closure_motion.hpp"
 
+#include <map>
 #include <optional>
 
 namespace jourdain::dynamics {
@@ -80,6 +81,23 @@ void for_each_velocity(const Equations& closures, const Use& use) {
   }
 }
 
+/// States that motions follow as they move on, by their entry in z; inputs stand still.
+std::map<std::size_t, MovingReal> leading_states(const Equations& closures, const LeafValue& leaf) {
+  std::map<std::size_t, MovingReal> states;
+  if (closures.leading.empty()) return states;
+  const HighPrecision now(closures.statements, leaf);
+  for (const LeadingState& state : closures.leading)
+    states[state.entry] = {leaf(LeafKind::kVelocity, state.entry), now.value(state.rate)};
+  const MovingPrecision soon(closures.statements, [&](LeafKind kind, std::size_t i) -> MovingReal {
+    if (kind == LeafKind::kTime) return {leaf(kind, i), 1};
+    const auto state = states.find(i);
+    return kind == LeafKind::kVelocity && state != states.end() ? state->second : MovingReal{leaf(kind, i)};
+  });
+  for (const LeadingState& state : closures.leading)
+    states[state.entry].second = soon.value(state.rate).first;
+  return states;
+}
+
 template <class Number>
 std::vector<Number> rows_of(const Equations& closures, const Evaluation<Number>& at) {
   std::vector<Number> rows;
@@ -89,12 +107,13 @@ std::vector<Number> rows_of(const Equations& closures, const Evaluation<Number>&
 }
 
 /// G and g_t of rows that bind velocities alone: their value at rest, and how it changes with z.
-void add_velocity_rows(const Equations& closures, const LeafValue& leaf, ClosureJacobian& jacobian) {
+void add_velocity_rows(const Equations& closures, std::size_t displacements, const LeafValue& leaf,
+                       ClosureJacobian& jacobian) {
   std::optional<GradientPrecision> at;
   for_each_velocity(closures, [&](std::size_t row, const Ex& velocity) {
     if (!at)
       at.emplace(closures.statements, [&](LeafKind kind, std::size_t i) -> GradientReal {
-        if (kind == LeafKind::kVelocity) return {0, {{i, 1}}};
+        if (kind == LeafKind::kVelocity && i < displacements) return {0, {{i, 1}}};
         return {leaf(kind, i)};
       });
     const GradientReal value = at->value(velocity);
@@ -108,9 +127,13 @@ void add_velocity_rows(const Equations& closures, const LeafValue& leaf, Closure
 ClosureJacobian closure_jacobian(const Equations& closures, const model::Tangent& tangent,
                                  std::size_t velocity_count, const LeafValue& leaf) {
   const std::vector<GradientReal> y = displaced_positions(tangent, leaf);
+  const std::map<std::size_t, MovingReal> states = leading_states(closures, leaf);
   const GradientPrecision at(closures.statements, [&](LeafKind kind, std::size_t i) -> GradientReal {
     if (kind == LeafKind::kPosition) return y[i];
     if (kind == LeafKind::kTime) return {leaf(kind, i), {{velocity_count, 1}}};
+    const auto state = states.find(i);
+    if (kind == LeafKind::kVelocity && state != states.end())
+      return {state->second.value, {{velocity_count, state->second.first}}};
     return {leaf(kind, i)};
   });
   ClosureJacobian jacobian;
@@ -122,16 +145,19 @@ ClosureJacobian closure_jacobian(const Equations& closures, const model::Tangent
     by.pop_back();
     jacobian.G.push_back(std::move(by));
   }
-  add_velocity_rows(closures, leaf, jacobian);
+  add_velocity_rows(closures, tangent.scalars.size() + 3 * tangent.quaternions.size(), leaf, jacobian);
   return jacobian;
 }
 
 ClosureMotion closure_motion(const Equations& closures, const model::Tangent& tangent,
                              const std::vector<ScaledReal>& z, const LeafValue& leaf) {
   const std::vector<MovingReal> y = moving_positions(tangent, z, leaf);
+  const std::map<std::size_t, MovingReal> states = leading_states(closures, leaf);
   const MovingPrecision at(closures.statements, [&](LeafKind kind, std::size_t i) -> MovingReal {
     if (kind == LeafKind::kPosition) return y[i];
     if (kind == LeafKind::kTime) return {leaf(kind, i), 1};
+    const auto state = states.find(i);
+    if (kind == LeafKind::kVelocity && state != states.end()) return state->second;
     return {kind == LeafKind::kVelocity ? z[i] : leaf(kind, i)};
   });
   ClosureMotion motion;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <optional>
+#include <set>
 
 #include "dynamics/absolute_rates.hpp"
 #include "dynamics/accelerations.hpp"
@@ -18,6 +19,7 @@
 #include "dynamics/solver.hpp"
 #include "dynamics/wrenches.hpp"
 #include "model/joint_kinds.hpp"
+#include "model/motion_sources.hpp"
 #include "support/check.hpp"
 
 namespace jourdain::dynamics {
@@ -40,7 +42,7 @@ class Derivation {
   Equations derive() {
     const ClosureRates rates = options_.for_derivatives ? ClosureRates::kGiven : ClosureRates::kNone;
     if (options_.closures_only) {
-      equations_.closures = derive_closure(scene_, rates);
+      derive_closures(rates);
       return std::move(equations_);
     }
     const AppliedForces applied = derive_applied_forces(scene_, Inputs::kGiven);
@@ -63,7 +65,7 @@ class Derivation {
     derive_samples();
     set_initial_state();
     for (const model::Output& output : mechanism_.outputs) equations_.output_names.push_back(output.name);
-    equations_.closures = derive_closure(scene_, rates);
+    derive_closures(rates);
     equations_.outputs_take_leaves = options_.for_derivatives || !mechanism_.loops.empty();
     if (equations_.outputs_take_leaves)
       equations_.outputs = derive_outputs(scene_, equations_, scene_.leaves.zdot,
@@ -106,6 +108,23 @@ class Derivation {
         ydot[first + k] = statements_.bind(named("qdot", i, k), ydot[first + k]);
     }
     return ydot;
+  }
+
+  void derive_closures(ClosureRates rates) {
+    equations_.closures = derive_closure(scene_, rates);
+    if (mechanism_.loops.empty()) return;
+    std::set<std::size_t> leading;
+    for (const model::Joint& joint : mechanism_.joints)
+      for (const model::Coordinate& coordinate : joint.coordinates) {
+        if (!coordinate.motion) continue;
+        model::MotionSources sources = model::motion_sources(mechanism_, *coordinate.motion);
+        leading.merge(sources.first);
+        leading.merge(sources.second);
+      }
+    for (const std::size_t i : leading)
+      equations_.leading.push_back(
+          {scene_.layout.first_state() + i, general_value(scene_, mechanism_.states[i].name + "_rate",
+                                                          mechanism_.states[i].rate, Inputs::kGiven)});
   }
 
   void derive_samples() {

@@ -63,6 +63,12 @@ struct SampledState {
   Ex value;
 };
 
+/// A state that motions follow, or their velocities.
+struct LeadingState {
+  std::size_t entry = 0;  ///< in z
+  Ex rate;
+};
+
 /// The symbolic equations of motion M ż = k̄ − q̄ (signs as printed; generator/README.md) and what belongs to
 /// them. Entries are numbers, leaves or names bound in `statements`. y and z as in model::CoordinateLayout; rows of
 /// states are those of unit inertias, ẋ = −q̄, without kinetic energy.
@@ -77,6 +83,7 @@ struct Equations {
   std::vector<Ex> residual;        ///< M ż − k̄ + q̄, with ż a leaf; only for derivatives
   std::vector<Ex> load;            ///< of q̄ all but gravity; only for derivatives
   std::vector<LoopClosure> closures;  ///< by loop
+  std::vector<LeadingState> leading;  ///< where there are loops: how those move on that time alone does not
   Ex kinetic_energy;                  ///< J
   Ex potential_energy;                ///< J; gravity (zero at the inertial origin), springs, force elements
   std::vector<SampledState> samples;  ///< in the order of their entries

@@ -11,6 +11,7 @@
 #include "agreement/shared_data.hpp"
 #include "loops/closed_programs.hpp"
 #include "loops/rows/configuration.hpp"
+#include "model/motion_sources.hpp"
 #include "properties/consistent_state.hpp"
 #include "properties/effort.hpp"
 #include "properties/random_loops.hpp"
@@ -165,17 +166,20 @@ TEST(Loops, MechanismsThatRollAccelerateAndLoadAsTheDescriptorFormSays) {
 
 TEST(Loops, MixturesWithElementsAndLawsAccelerateAndLoadAsTheDescriptorFormSays) {
   Tally chosen, multipliers;
+  int led = 0;
   multipliers.of_redundant = chosen.of_redundant = 1e-7;
   for (std::uint64_t seed = 0; seed < kMixtures; ++seed) {
     if (seed % 3 == 0) continue;  // without loops
     SCOPED_TRACE(fmt::format("seed {}", seed));
     const model::Mechanism mechanism = random_mixture(seed);
+    led += model::motions_follow_states(mechanism);
     const auto states = consistent_states(mechanism, seed, kStates);
     ASSERT_TRUE(states);
     compare(mechanism, {}, *states, chosen);
     compare(mechanism, model::LoopTreatment::kMultipliers, *states, multipliers);
   }
-  print("mixtures, chosen", chosen);
+  EXPECT_GT(led, 0);
+  print(fmt::format("mixtures ({} with motions that follow states), chosen", led).c_str(), chosen);
   print("mixtures, multipliers", multipliers);
   EXPECT_GE(chosen.states + multipliers.states, 3 * kMixtures);
 }

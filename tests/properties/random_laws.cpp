@@ -40,7 +40,7 @@ class Laws {
     output.value = law(quantity(), quantity());
     mechanism_.outputs.push_back(output);
     if (random_.chance(0.5)) add_states();
-    if (mechanism_.loops.empty()) lead_motions();
+    lead_motions();
   }
 
  private:
@@ -73,11 +73,14 @@ class Laws {
     for (const char* what : {"place", "speed"}) {
       model::StateVariable& state = mechanism_.states.emplace_back();
       state.name = fmt::format("{}_of_{}", what, coordinate.name);
-      state.initial = number(-1, 1);
+      state.initial = mechanism_.loops.empty() ? number(-1, 1) : 0;
     }
     mechanism_.states[first].rate = number(-1, 1) * speed + number(-0.5, 0.5) * smooth(place, t);
     mechanism_.states[first + 1].rate = number(-1, 1) * law(any(), any()) - number(0, 1) * speed;
-    coordinate.motion = *coordinate.motion + number(-1, 1) * place + number(-0.3, 0.3) * smooth(place, t);
+    if (mechanism_.loops.empty())
+      coordinate.motion = *coordinate.motion + number(-1, 1) * place + number(-0.3, 0.3) * smooth(place, t);
+    else  // closed at the start as before
+      coordinate.motion = *coordinate.motion + number(-0.3, 0.3) * sine(place);
   }
 
   void add_to(std::size_t j, std::size_t c) {
@@ -108,8 +111,8 @@ class Laws {
     std::vector<Expression> choice = {variable(Variable::Kind::kTime)};
     const std::size_t inputs = mechanism_.actuators.size() + mechanism_.inputs.size();
     if (inputs > 0) choice.push_back(variable(Variable::Kind::kInput, random_.below(inputs)));
-    if (!mechanism_.frames.empty()) {
-      const std::size_t frame = random_.below(mechanism_.frames.size()), axis = random_.below(3);
+    if (const std::vector<std::size_t> frames = placed_frames(); !frames.empty()) {
+      const std::size_t frame = frames[random_.below(frames.size())], axis = random_.below(3);
       choice.push_back(variable(Variable::Kind::kFramePosition, frame, axis));
       choice.push_back(variable(Variable::Kind::kFrameVelocity, frame, axis));
       choice.push_back(variable(Variable::Kind::kFrameWorldSpin, frame, axis));
@@ -118,6 +121,17 @@ class Laws {
     for (std::size_t i = 0; i < mechanism_.states.size(); ++i)
       choice.push_back(variable(Variable::Kind::kState, i));
     return choice[random_.below(choice.size())];
+  }
+
+  /// Those that are not at their body's origin: where that lies on a joint's axis it stands still, and rounding alone
+  /// says which way the references see it move.
+  std::vector<std::size_t> placed_frames() const {
+    std::vector<std::size_t> list;
+    for (std::size_t i = 0; i < mechanism_.frames.size(); ++i) {
+      const model::Vector3& position = mechanism_.frames[i].placement.position;
+      if (!position[0].is_zero() || !position[1].is_zero() || !position[2].is_zero()) list.push_back(i);
+    }
+    return list;
   }
 
   /// Of values in the size of one, with slopes in the size of one.

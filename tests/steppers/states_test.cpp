@@ -10,6 +10,7 @@
 
 #include "block_on_slope_steps/block_on_slope_steps_kernels.hpp"
 #include "driven_four_bar_all/driven_four_bar_all_kernels.hpp"
+#include "led_crank_all/led_crank_all_kernels.hpp"
 #include "quarter_car_steps/quarter_car_steps_kernels.hpp"
 #include "servo_arm_all/servo_arm_all_kernels.hpp"
 #include "servo_arm_slow/servo_arm_slow_kernels.hpp"
@@ -257,9 +258,48 @@ TEST(States, ThatLeadAMotionAreInEveryFunction) {
   for (int i = 0; i < 2; ++i) EXPECT_NEAR(double(tau[i]), 0, 1e-13) << i;
   shaking_table_all::Linearization<Long> at;
   shaking_table_all::linearize(model, state, input, at);
-  EXPECT_NEAR(double(at.A[2][4]), double(by_hand.w * by_hand.w), 1e-9);  // of the lower floor by the table's place
+  EXPECT_NEAR(double(at.A[2][4]), double(by_hand.w * by_hand.w),
+              1e-9);  // of the lower floor by the table's place
   EXPECT_NEAR(double(at.B[2][0]), double(-by_hand.w * by_hand.w), 1e-9);
   EXPECT_NEAR(double(at.A[3][4]), 0, 1e-9);
+}
+
+/// tests/steppers/led_crank.toml: w = u (1 - exp(-5 t)), and the piston where crank and rod put it; what the crank is
+/// turned with gives the energy.
+TEST(States, ACrankThatStatesLeadGoesAsTheClosedFormSays) {
+  const led_crank_all::Model<Long> model;
+  auto state = led_crank_all::initial_state(model);
+  led_crank_all::Input<Long> input{};
+  input.u[0] = 20;
+  const Long h = 1e-4L, start = 0.3L;
+  const auto power = [&] {
+    led_crank_all::Outputs<Long> outputs;
+    led_crank_all::outputs(model, state, input, outputs);
+    return outputs.drive * state.z[3];
+  };
+  const auto energy = [&] {
+    return led_crank_all::kinetic_energy(model, state) + led_crank_all::potential_energy(model, state);
+  };
+  Long worst = 0, open = 0, work = 0;
+  const Long before = energy();
+  for (int n = 1; n <= 20000; ++n) {
+    const Long first = power();
+    led_crank_all::rk4_step(model, state, input, h / 2);
+    const Long middle = power();
+    led_crank_all::rk4_step(model, state, input, h / 2);
+    work += h / 6 * (first + 4 * middle + power());
+    const Long t = n * h, angle = start + 20 * t - 4 * (1 - std::exp(-5 * t));
+    const Long sine = std::sin(angle),
+               bore = 0.1L * std::cos(angle) + std::sqrt(0.36L - 0.01L * sine * sine) - 0.6L;
+    worst = std::max(worst, std::fabs(state.y[1] - bore));
+    Long g[2], rate[2];
+    led_crank_all::constraint_residual(model, state, g, rate);
+    for (int k = 0; k < 2; ++k) open = std::max({open, std::fabs(g[k]), std::fabs(rate[k])});
+  }
+  EXPECT_LE(worst, 1e-14L);
+  EXPECT_LE(open, 1e-15L);
+  EXPECT_LE(std::fabs(energy() - before - work), 1e-10L);
+  EXPECT_GE(std::fabs(energy() - before), 1);
 }
 
 /// Over the bump and beyond, braking to a locked wheel and driving: the wheel leaves the ground and comes back.
@@ -351,6 +391,13 @@ TEST(States, EveryStepperHasItsOrder) {
     EXPECT_NEAR(measured, order, 0.1) << "driven_four_bar " << name;
   };
   JOURDAIN_VISIT_STEPPERS(driven_four_bar_all, Long, linkage);
+  const auto crank = [](const std::string& name, int order, auto step, auto& history) {
+    const auto start = led_crank_all::initial_state(led_crank_all::Model<Long>());
+    led_crank_all::Input<Long> input{};
+    input.u[0] = 5;
+    EXPECT_NEAR(measured_order(start, input, 1, step, history), order, 0.15) << "led_crank " << name;
+  };
+  JOURDAIN_VISIT_STEPPERS(led_crank_all, Long, crank);
   const auto building = [](const std::string& name, int order, auto step, auto& history) {
     const auto start = shaking_table_all::initial_state(shaking_table_all::Model<Long>());
     shaking_table_all::Input<Long> input{};

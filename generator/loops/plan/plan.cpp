@@ -20,6 +20,7 @@
 #include "loops/rows/disagreement.hpp"
 #include "loops/rows/regular_rows.hpp"
 #include "model/loop_kinds.hpp"
+#include "model/motion_sources.hpp"
 #include "model/time_dependence.hpp"
 #include "support/matrix_index.hpp"
 
@@ -376,23 +377,31 @@ class Planner {
   LoopPlan plan_;
 };
 
+ConstraintPrograms programs_of(const model::Mechanism& mechanism) {
+  dynamics::DerivationOptions options;
+  options.closures_only = options.for_derivatives = true;
+  return constraint_programs(mechanism, dynamics::derive_equations(mechanism, options)).front();
+}
+
 }  // namespace
 
 std::optional<LoopPlan> plan_loops(const model::Mechanism& mechanism, const ConstraintPrograms& constraints,
                                    support::Diagnostics& diagnostics) {
   if (mechanism.states.empty()) return Planner(mechanism, constraints, diagnostics).plan();
-  const model::Mechanism held = without_states(mechanism);
-  std::optional<LoopPlan> plan = Planner(held, constraints, diagnostics).plan();
-  if (plan) add_states(mechanism, *plan);
+  model::Mechanism held = without_states(mechanism);
+  const bool led = model::motions_follow_states(mechanism);
+  if (led)
+    held.loop_options.treatment = LoopTreatment::kMultipliers;  // what is proven is so for ranges of time
+  std::optional<LoopPlan> plan = Planner(held, led ? programs_of(held) : constraints, diagnostics).plan();
+  if (!plan) return {};
+  add_states(mechanism, *plan);
+  if (led && plan->reason.empty()) plan->reason = "motions follow states";
   return plan;
 }
 
 std::optional<LoopPlan> plan_loops(const model::Mechanism& mechanism, support::Diagnostics& diagnostics) {
   if (mechanism.loops.empty()) return {};
-  dynamics::DerivationOptions options;
-  options.closures_only = options.for_derivatives = true;
-  const dynamics::Equations equations = dynamics::derive_equations(mechanism, options);
-  return plan_loops(mechanism, constraint_programs(mechanism, equations).front(), diagnostics);
+  return plan_loops(mechanism, programs_of(mechanism), diagnostics);
 }
 
 }  // namespace jourdain::loops

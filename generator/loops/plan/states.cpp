@@ -3,7 +3,29 @@
 #include <utility>
 #include <vector>
 
+#include "model/expression_sums.hpp"
+#include "model/motion_sources.hpp"
+
 namespace jourdain::loops {
+
+namespace {
+
+/// What a motion that follows states does from t = 0 on, at the parameters' default values, inputs zero; from rest it
+/// moves off at 1 rad/s² or m/s²: where it stands at the start says little of where it goes.
+model::Expression as_it_starts(const model::Expression& motion,
+                               const std::vector<model::StateVariable>& states,
+                               const std::vector<double>& parameters) {
+  using model::Variable;
+  const auto at = model::motion_taylor<double>(motion, states, parameters, [&](const Variable& v) {
+    return v.kind == Variable::Kind::kState ? states[v.index].initial.evaluate<double>(parameters) : 0.0;
+  });
+  const bool rests = at.first == 0 && at.second == 0;
+  const model::Expression t = model::Expression::variable({Variable::Kind::kTime});
+  return model::plus(at.value,
+                     model::times(t, model::plus(at.first, model::times(rests ? 0.5 : at.second / 2, t))));
+}
+
+}  // namespace
 
 model::Mechanism without_states(model::Mechanism mechanism) {
   const std::vector<model::StateVariable> states = std::move(mechanism.states);
@@ -14,6 +36,11 @@ model::Mechanism without_states(model::Mechanism mechanism) {
                                                             : model::Expression::variable(variable);
     });
   };
+  const std::vector<double> parameters = model::default_values(mechanism);
+  for (model::Joint& joint : mechanism.joints)
+    for (model::Coordinate& coordinate : joint.coordinates)
+      if (coordinate.motion && !model::states_in(*coordinate.motion).empty())
+        coordinate.motion = as_it_starts(*coordinate.motion, states, parameters);
   for_each_force_element(mechanism, [&hold](auto& element) {
     for (model::Expression* expression : element.expressions()) hold(*expression);
   });

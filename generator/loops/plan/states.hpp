@@ -6,7 +6,8 @@
 
 namespace jourdain::loops {
 
-/// The mechanism with its states held where they start: they are no part of what loops hold together.
+/// The mechanism with its states held where they start: they are no part of what loops hold together. Motions that
+/// follow them go on as they start.
 model::Mechanism without_states(model::Mechanism mechanism);
 
 /// States are independent and start as the description says.

@@ -30,6 +30,9 @@ NumericClosure::NumericClosure(const model::Mechanism& mechanism, const Constrai
   const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
   tangent_ = layout.tangent;
   velocities_ = layout.velocity_count();
+  inputs_ = layout.input_count();
+  for (const model::StateVariable& state : mechanism.states)
+    states_.push_back(state.initial.evaluate<double>(parameters_));
   for (const ir::Output& output : programs.velocities.outputs)
     without_position_.push_back(support::subscript(output.row));
 }
@@ -45,7 +48,14 @@ ir::LeafValues<long double> NumericClosure::leaves(const Configuration& config, 
   ir::LeafValues<long double> values;
   values[LeafKind::kParameter].assign(parameters_.begin(), parameters_.end());
   values[LeafKind::kPosition].assign(config.y.begin(), config.y.end());
-  values[LeafKind::kVelocity].assign(z.begin(), z.end());
+  std::vector<long double>& velocities = values[LeafKind::kVelocity];
+  velocities.assign(z.begin(), z.end());
+  velocities.resize(velocities_);
+  if (config.states.size() > 0)
+    std::copy(config.states.begin(), config.states.end(), velocities.end() - config.states.size());
+  else if (z.size() == 0)
+    std::copy(states_.begin(), states_.end(), velocities.end() - static_cast<std::ptrdiff_t>(states_.size()));
+  values[LeafKind::kInput].assign(inputs_, 0);
   values[LeafKind::kTime] = {config.t};
   return values;
 }

@@ -18,6 +18,7 @@ using Matrix = Eigen::MatrixX<long double>;
 struct Configuration {
   long double t = 0;
   Vector y;
+  Vector states = {};  ///< beside the mechanism, where motions follow them; none: where they start
 };
 
 /// Residuals of rows with lengths below this count as closed, m (of products of unit vectors: without unit).
@@ -80,7 +81,8 @@ class NumericClosure {
   std::vector<std::size_t> without_position_;  ///< rows that bind velocities alone
   model::Tangent tangent_;
   std::vector<double> parameters_;
-  std::size_t rows_ = 0, velocities_ = 0;
+  std::vector<long double> states_;  ///< at the start
+  std::size_t rows_ = 0, velocities_ = 0, inputs_ = 0;
   std::vector<std::size_t> disregarded_;
   long double limit_ = 0;
 };

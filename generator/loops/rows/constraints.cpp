@@ -95,6 +95,14 @@ class Lowered {
                   });
   }
 
+  /// Rates of the states that motions follow, by their entry.
+  Program leading() const {
+    std::vector<lowering::Target> targets;
+    for (const dynamics::LeadingState& state : equations_.leading)
+      targets.push_back({"rate", static_cast<int>(state.entry), -1, state.rate});
+    return lowering::lower(equations_.statements, targets, "leading");
+  }
+
   Program senses() const {
     LoopLowering program(mechanism_, equations_);
     for (std::size_t l = 0; l < equations_.closures.size(); ++l)
@@ -157,11 +165,15 @@ class Lowered {
 class Differentiation {
  public:
   Differentiation(const model::Tangent& tangent, const Program& value, const Program& velocities,
-                  EliminationOrder order)
+                  const Program& leading, EliminationOrder order)
       : tangent_(tangent), order_(order), g_(ir::insert(builder_, value)) {
     const std::size_t n = tangent.scalars.size() + 3 * tangent.quaternions.size();
+    const std::vector<Signed> rates = ir::insert(builder_, leading);
+    for (std::size_t k = 0; k < rates.size(); ++k)
+      leading_.push_back(
+          {builder_.leaf(LeafKind::kVelocity, support::subscript(leading.outputs[k].row)), 0, rates[k]});
     std::vector<Seed> seeds = lowering::displacement_seeds(builder_, tangent);
-    seeds.push_back({builder_.leaf(LeafKind::kTime, 0), n, builder_.literal(1)});
+    add_time(seeds, n);
     velocities_ = n;
     G_ = ir::differentiate(builder_, g_, seeds, order);
     add_velocities(velocities);
@@ -194,12 +206,20 @@ class Differentiation {
   }
 
  private:
+  /// What moves on at z = 0, by the column of time: t, and states that motions follow.
+  void add_time(std::vector<Seed>& seeds, std::size_t column) {
+    seeds.push_back({builder_.leaf(LeafKind::kTime, 0), column, builder_.literal(1)});
+    for (const Seed& state : leading_) seeds.push_back({state.leaf, column, state.partial});
+  }
+
   /// G and g_t of rows that are linear in z and have no g.
   void add_velocities(const Program& velocities) {
     const std::vector<Signed> moving = ir::insert(builder_, velocities);
-    const std::vector<Signed> resting = ir::insert(builder_, velocities, [this](LeafKind kind, std::size_t) {
-      return kind == LeafKind::kVelocity ? std::optional(builder_.literal(0)) : std::nullopt;
-    });
+    const std::vector<Signed> resting =
+        ir::insert(builder_, velocities, [this](LeafKind kind, std::size_t k) {
+          const bool moves = kind == LeafKind::kVelocity && k < velocities_;  // states stay
+          return moves ? std::optional(builder_.literal(0)) : std::nullopt;
+        });
     std::vector<Seed> seeds;
     for (std::size_t k = 0; k < velocities_; ++k)
       seeds.push_back({builder_.leaf(LeafKind::kVelocity, k), k, builder_.literal(1)});
@@ -222,7 +242,7 @@ class Differentiation {
       else
         same->partial = builder_.add(same->partial, rate);
     }
-    seeds.push_back({builder_.leaf(LeafKind::kTime, 0), 0, builder_.literal(1)});
+    add_time(seeds, 0);
     return seeds;
   }
 
@@ -232,6 +252,7 @@ class Differentiation {
   EliminationOrder order_;
   Builder builder_;
   std::vector<Signed> g_;
+  std::vector<Seed> leading_;  ///< states that motions follow, with their rates
   std::size_t velocities_ = 0;
   JacobianEntries G_;
 };
@@ -256,8 +277,9 @@ std::vector<ConstraintPrograms> constraint_programs(const model::Mechanism& mech
   programs.velocities = lowered.velocities();
   programs.senses = lowered.senses();
   programs.spans = lowered.spans();
+  const Program leading = lowered.leading();
   const auto differentiation = [&](EliminationOrder o) {
-    return Differentiation(tangent, programs.value, programs.velocities, o);
+    return Differentiation(tangent, programs.value, programs.velocities, leading, o);
   };
   const std::vector<Program> jacobians =
       in_order(lowering::cheapest([&](EliminationOrder o) { return differentiation(o).jacobian(); }),

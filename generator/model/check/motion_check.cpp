@@ -36,12 +36,14 @@ class MotionCheck {
     if (!calls(motion, "motion", coordinate.name, coordinate.motion_where)) return;
     const MotionSources sources = motion_sources(mechanism_, motion);
     if (sources.first.empty()) return;
-    if (!mechanism_.loops.empty())
-      return void(refuse(
-          coordinate,
-          fmt::format("follows state '{}' beside {}", shown(mechanism_.states[*sources.first.begin()].name),
-                      in_words(mechanism_.loops.front())),
-          "where constraints hold, motions are functions of t"));
+    const LoopOptions& loops = mechanism_.loop_options;
+    const bool reduces = loops.treatment && *loops.treatment != LoopTreatment::kMultipliers;
+    if (!mechanism_.loops.empty() && (reduces || !loops.independent.empty()))
+      return diagnostics_.error(
+          loops.where,
+          fmt::format("the motion of '{}' follows state '{}': loops are held by multipliers",
+                      shown(coordinate.name), shown(mechanism_.states[*sources.first.begin()].name)),
+          "other treatments need motions that are functions of t");
     for (const std::size_t state : sources.first)
       if (!follows(coordinate, state, true)) return;
     for (const std::size_t state : sources.second)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "model/motion_sources.hpp"
 #include "model/time_dependence.hpp"
 #include "support/matrix_index.hpp"
 #include "support/uniform.hpp"
@@ -32,7 +33,11 @@ std::vector<Ray> draw_rays(const loops::NumericClosure& closure, const loops::Lo
     for (std::size_t k = layout.first_state(); k < plan.z.size(); ++k)
       z[at(k)] = plan.z[k] + z[at(k)] * mechanism.states[k - layout.first_state()].nominal.evaluate<double>(
                                             model::default_values(mechanism));
-    z = closure.consistent(configuration, z, {});
+    if (model::motions_follow_states(mechanism)) {
+      ray.configuration.states = z.tail(at(layout.state_count));
+      ray.configuration = closure.assembled(ray.configuration, {});
+    }
+    z = closure.consistent(ray.configuration, z, {});
     for (std::size_t k = 0; k < plan.z.size(); ++k)
       if (!plan.is_reduced() ||
           std::find(plan.independent.begin(), plan.independent.end(), k) != plan.independent.end())
