@@ -9,6 +9,7 @@
 #include "loops/plan/plan.hpp"
 #include "programs/closed_system.hpp"
 #include "programs/loop_functions.hpp"
+#include "validate/kinks.hpp"
 
 namespace jourdain::tests {
 
@@ -72,15 +73,36 @@ std::map<std::string, double> ClosedPrograms::values(const std::string& function
   return named;
 }
 
-reference::VectorX<long double> ClosedPrograms::vector(const std::string& function, const LoopState& state,
-                                                       const reference::VectorX<long double>& u) const {
+/// Of the independent coordinates.
+std::vector<double> ClosedPrograms::velocities(const LoopState& state) const {
   std::vector<double> z;
   for (std::size_t k = 0; k < layout_.velocity_count(); ++k)
     if (!plan_.is_reduced() ||
         std::find(plan_.independent.begin(), plan_.independent.end(), k) != plan_.independent.end())
       z.push_back(static_cast<double>(state.z[Eigen::Index(k)]));
-  const auto named = values(function, static_cast<double>(state.t), {state.y.begin(), state.y.end()}, z,
-                            {u.begin(), u.end()});
+  return z;
+}
+
+bool ClosedPrograms::is_on_a_kink(const LoopState& state, const reference::VectorX<long double>& u) const {
+  ir::LeafValues<support::ScaledReal> leaves;
+  const auto take = [&leaves](LeafKind kind, const std::vector<double>& values) {
+    leaves[kind].assign(values.begin(), values.end());
+  };
+  take(LeafKind::kParameter, model::default_values(mechanism_));
+  take(LeafKind::kPosition, {state.y.begin(), state.y.end()});
+  take(LeafKind::kVelocity, velocities(state));
+  take(LeafKind::kInput, {u.begin(), u.end()});
+  take(LeafKind::kTime, {static_cast<double>(state.t)});
+  const validate::KinkSurvey::Look look = validate::KinkSurvey(module_).look(leaves);
+  // On a kink in doubles, where constraints hold something at it, is near it with more digits.
+  return look.is_near || std::any_of(look.distances.begin(), look.distances.end(),
+                                     [](const support::ScaledReal& d) { return d == support::ScaledReal(); });
+}
+
+reference::VectorX<long double> ClosedPrograms::vector(const std::string& function, const LoopState& state,
+                                                       const reference::VectorX<long double>& u) const {
+  const auto named = values(function, static_cast<double>(state.t), {state.y.begin(), state.y.end()},
+                            velocities(state), {u.begin(), u.end()});
   reference::VectorX<long double> result(Eigen::Index(named.size()));
   const char* name = function == "forward_dynamics" ? "zdot" : "lambda";
   for (std::size_t i = 0; i < named.size(); ++i)

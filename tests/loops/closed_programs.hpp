@@ -25,6 +25,9 @@ class ClosedPrograms {
   reference::VectorX<long double> multipliers(const LoopState& state,
                                               const reference::VectorX<long double>& u) const;
 
+  /// Where rounding chooses the side of a kink, forces may jump.
+  bool is_on_a_kink(const LoopState& state, const reference::VectorX<long double>& u) const;
+
   /// Arithmetic operations of an emitted function.
   std::size_t operations(const std::string& function) const;
 
@@ -33,6 +36,7 @@ class ClosedPrograms {
                                        const std::vector<double>& z, const std::vector<double>& u) const;
 
  private:
+  std::vector<double> velocities(const LoopState& state) const;
   reference::VectorX<long double> vector(const std::string& function, const LoopState& state,
                                          const reference::VectorX<long double>& u) const;
 
