@@ -140,39 +140,41 @@ struct Model {
     return state.regularity >= Real(least_regularity) && state.opening <= Real(greatest_opening);
   }
 
+  Real speed;
+  Real expression;
   Real S2b_d;
   Real front_S_yz;
   Real S2b_zz;
   Real front_h_y;
-  Real c4;
-  Real c5;
-  Real r_steer_x;
+  Real c6;
   Real c7;
+  Real r_steer_x;
+  Real c9;
   Real r_steer_z;
   Real SR_z;
   Real h_z;
   Real h_x;
-  Real c12;
-  Real SR_x;
   Real c14;
-  Real c15;
+  Real SR_x;
   Real c16;
   Real c17;
   Real c18;
   Real c19;
   Real c20;
   Real c21;
-  Real r_front_y;
+  Real c22;
   Real c23;
-  Real c24;
+  Real r_front_y;
+  Real c25;
+  Real c26;
   Real front_radius;
   Real rear_radius;
   Real mr_z;
-  Real c28;
-  Real c29;
   Real c30;
   Real c31;
   Real c32;
+  Real c33;
+  Real c34;
 };
 
 // Names in order, closed by a null pointer.

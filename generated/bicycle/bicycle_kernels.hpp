@@ -193,28 +193,30 @@ void normalise(Real* quaternion) noexcept {
 template <class Real> JOURDAIN_FUNCTION
 Model<Real>::Model(const Parameters& parameters) noexcept {
   rear_radius = parameters.rear_radius;
-  const Real expression = parameters.wheelbase + parameters.trail;
-  const Real d_steer = expression * Real(0.3090169943749474);
-  r_steer_x = expression - Real(0.3090169943749474) * d_steer;
+  speed = parameters.speed;
+  expression = speed / rear_radius;
+  const Real expression_2 = parameters.wheelbase + parameters.trail;
+  const Real d_steer = expression_2 * Real(0.3090169943749474);
+  r_steer_x = expression_2 - Real(0.3090169943749474) * d_steer;
   r_steer_z = d_steer * Real(0.9510565162951535);
   front_radius = parameters.front_radius;
   r_front_y = Real(0.3090169943749474) * front_radius - parameters.trail * Real(0.9510565162951535);
-  const Real t17 = parameters.trail * Real(0.3090169943749474);
-  const Real t18 = Real(0.9510565162951535) * front_radius;
-  const Real r_front_z = t17 - (d_steer - t18);
-  const Real expression_2 = expression - Real(0.9);
-  const Real mr_x = expression_2 * Real(4.0);
-  const Real S_xx = Real(0.0040799999999999986) + expression_2 * mr_x;
+  const Real t19 = parameters.trail * Real(0.3090169943749474);
+  const Real t20 = Real(0.9510565162951535) * front_radius;
+  const Real r_front_z = t19 - (d_steer - t20);
+  const Real expression_3 = expression_2 - Real(0.9);
+  const Real mr_x = expression_3 * Real(4.0);
+  const Real S_xx = Real(0.0040799999999999986) + expression_3 * mr_x;
   const Real S_xz = mr_x * Real(0.7) + Real(0.00756);
   const Real h_y = Real(0.8652475842498527) - Real(0.9510565162951535) * mr_x;
   const Real h_z_2 = Real(0.3090169943749474) * mr_x + Real(2.66295824562643);
   const Real mr_z_2 = d_steer * Real(4.0);
-  const Real t39 = Real(0.3090169943749474) * S_xz;
-  const Real SR_y = t39 - Real(0.9510565162951535) * S_xx;
-  const Real t43 = Real(0.9510565162951535) * S_xz;
-  const Real SR_z_2 = Real(0.3090169943749474) * S_xx + t43;
-  const Real SR_y_2 = t43 - Real(0.6229535393003439);
-  const Real SR_z_3 = t39 + Real(1.9172538523297258);
+  const Real t41 = Real(0.3090169943749474) * S_xz;
+  const Real SR_y = t41 - Real(0.9510565162951535) * S_xx;
+  const Real t45 = Real(0.9510565162951535) * S_xz;
+  const Real SR_z_2 = Real(0.3090169943749474) * S_xx + t45;
+  const Real SR_y_2 = t45 - Real(0.6229535393003439);
+  const Real SR_z_3 = t41 + Real(1.9172538523297258);
   const Real mr_y = r_front_y * Real(3.0);
   const Real mr_z_3 = r_front_z * Real(3.0);
   const Real S_yy = r_front_y * mr_y;
@@ -232,41 +234,41 @@ Model<Real>::Model(const Parameters& parameters) noexcept {
   const Real mr_z_4 = r_steer_z * Real(7.0);
   SR_x = Real(0.3090169943749474) * front_S_zz;
   SR_z = Real(0.9510565162951535) * front_S_zz;
-  mr_z = Real(2.0) * rear_radius;
+  mr_z = rear_radius * Real(2.0);
   const Real S_zz_2 = rear_radius * mr_z;
   const Real S3c_yy = Real(0.9510565162951535) * SR_y + (Real(0.3090169943749474) * SR_y_2 - (S_yy +
       Real(0.14)));
   S2b_zz = S3c_yy - Real(0.003500000000000002);
   S2b_d = S3c_yy + Real(0.003500000000000002);
-  c7 = h_x + mr_x_2;
-  c4 = Real(25.5) + c7;
-  c5 = Real(76.5) + (mr_z - (h_z - mr_z_4));
-  c12 = Real(2.0) * r_steer_x;
-  c14 = r_steer_x * mr_x_2 + Real(10.01);
-  c15 = Real(2.0) * r_steer_z;
-  c16 = SR_z + Real(0.1331479122813215);
-  c17 = Real(77.61) + (r_steer_z * mr_z_4 + S_zz_2);
-  c18 = Real(0.3090169943749474) * S2b_zz;
-  c19 = Real(0.9510565162951535) * S2b_zz;
-  const Real r_front_z_2 = t18 - (d_steer - t17);
+  c9 = h_x + mr_x_2;
+  c6 = Real(25.5) + c9;
+  c7 = Real(76.5) + (mr_z - (h_z - mr_z_4));
+  c14 = Real(2.0) * r_steer_x;
+  c16 = r_steer_x * mr_x_2 + Real(10.01);
+  c17 = Real(2.0) * r_steer_z;
+  c18 = SR_z + Real(0.1331479122813215);
+  c19 = Real(77.61) + (r_steer_z * mr_z_4 + S_zz_2);
+  c20 = Real(0.3090169943749474) * S2b_zz;
+  c21 = Real(0.9510565162951535) * S2b_zz;
+  const Real r_front_z_2 = t20 - (d_steer - t19);
   const Real mr_z_5 = Real(3.0) * r_front_z_2;
   const Real front_h_z_2 = mr_z_5 + (h_z_2 - mr_z_2);
   const Real h_x_2 = Real(0.3090169943749474) * front_h_z_2;
   const Real h_z_3 = Real(0.9510565162951535) * front_h_z_2;
-  c20 = Real(25.5) + (mr_x_2 - h_x_2);
-  c21 = mr_z + (Real(76.5) + (mr_z_4 + h_z_3));
-  c23 = r_steer_x - Real(0.3090169943749474) * r_front_z;
-  c24 = r_steer_z + Real(0.9510565162951535) * r_front_z;
-  c28 = Real(1.0) / S2b_zz;
-  c29 = Real(0.5) * front_radius;
-  c30 = Real(0.5) * rear_radius;
-  const Real t130 = d_steer + r_front_z_2;
-  c31 = expression - Real(0.3090169943749474) * t130;
-  c32 = Real(0.9510565162951535) * t130;
+  c22 = Real(25.5) + (mr_x_2 - h_x_2);
+  c23 = mr_z + (Real(76.5) + (mr_z_4 + h_z_3));
+  c25 = r_steer_x - Real(0.3090169943749474) * r_front_z;
+  c26 = r_steer_z + Real(0.9510565162951535) * r_front_z;
+  c30 = Real(1.0) / S2b_zz;
+  c31 = Real(0.5) * front_radius;
+  c32 = rear_radius * Real(0.5);
+  const Real t132 = d_steer + r_front_z_2;
+  c33 = expression_2 - Real(0.3090169943749474) * t132;
+  c34 = Real(0.9510565162951535) * t132;
 }
 
 template <class Real> JOURDAIN_FUNCTION
-State<Real> initial_state(const Model<Real>&) noexcept {
+State<Real> initial_state(const Model<Real>& model) noexcept {
   State<Real> initial;
   initial.t = Real(0.0);
   initial.y[0] = Real(0.0);
@@ -279,13 +281,13 @@ State<Real> initial_state(const Model<Real>&) noexcept {
   initial.y[7] = Real(0.0);
   initial.y[8] = Real(0.0);
   initial.y[9] = Real(0.0);
-  initial.z[0] = Real(5.0);
+  initial.z[0] = model.speed;
   initial.z[1] = Real(0.0);
   initial.z[2] = Real(0.0);
   initial.z[3] = Real(0.5);
   initial.z[4] = Real(0.0);
   initial.z[5] = Real(0.0);
-  initial.z[6] = Real(-16.666666666666668);
+  initial.z[6] = -model.expression;
   initial.z[7] = Real(-2.1944954335257218e-16);
   initial.z[8] = Real(-14.285714285714286);
   return initial;
@@ -350,20 +352,20 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[9
   const Real t55 = S2b_yz * Real(0.9510565162951535);
   const Real S2at2r0_z = t55 + Real(0.04326237921249264);
   const Real S2at2r2_y = t55 - S2b_yy * Real(0.3090169943749474);
-  const Real h2c_x = h2at2_x + model.c4;
-  const Real h2c_z = h2at2_z + model.c5;
+  const Real h2c_x = h2at2_x + model.c6;
+  const Real h2c_z = h2at2_z + model.c7;
   const Real S2c_xy = S2b_xy * Real(0.9510565162951535) - (S2b_xz * Real(0.3090169943749474) + h2b_x *
       model.r_steer_x);
   const Real t81 = h2at2_z - model.h_z;
-  const Real S2c_xz = Real(0.9510565162951535) * S2at2r0_z - (model.r_steer_x * t81 + ((h2at2_x + model.c7) *
+  const Real S2c_xz = Real(0.9510565162951535) * S2at2r0_z - (model.r_steer_x * t81 + ((h2at2_x + model.c9) *
       model.r_steer_z + Real(0.3090169943749474) * (S2at2r0_y - model.SR_z)) + Real(25.349999999999998));
   const Real S2c_yy = S2b_xx - Real(0.5002999999999995);
   const Real S2c_yz = S2b_xz * Real(0.9510565162951535) + (S2b_xy * Real(0.3090169943749474) - h2b_x *
       model.r_steer_z);
   const Real S1c_xx = Real(0.3090169943749474) * (S2at2r0_z + model.SR_x) + (Real(0.9510565162951535) *
-      S2at2r0_y + (h2at2_x + model.h_x) * model.c12) + model.c14;
-  const Real S1c_zz = Real(0.9510565162951535) * (t52 - model.c16) + (Real(0.3090169943749474) * S2at2r2_y -
-      t81 * model.c15) - model.c17;
+      S2at2r0_y + (h2at2_x + model.h_x) * model.c14) + model.c16;
+  const Real S1c_zz = Real(0.9510565162951535) * (t52 - model.c18) + (Real(0.3090169943749474) * S2at2r2_y -
+      t81 * model.c17) - model.c19;
   const Real S0b_zz = S2c_yy - S1c_xx;
   const Real Jx0 = S2c_yy + S1c_zz;
   const Real Jy0 = S1c_xx - S1c_zz;
@@ -371,9 +373,9 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[9
   const Real p_7_2f_z = h2b_x * Real(0.3090169943749474);
   const Real p_7_2l_x = h2b_y * model.r_steer_z;
   const Real p_7_2l_z = h2b_y * model.r_steer_x;
-  const Real p_7_2n_x = p_7_2l_x - (t55 + model.c18);
+  const Real p_7_2n_x = p_7_2l_x - (t55 + model.c20);
   const Real p_7_2n_y = model.r_steer_x * p_7_2f_z + (S2b_xz - model.r_steer_z * p_7_2f_x);
-  const Real p_7_2n_z = p_7_2l_z + (t52 - model.c19);
+  const Real p_7_2n_z = p_7_2l_z + (t52 - model.c21);
   const Real p_7_0f_x = q0r0_y * h2b_y + (q0r0_x * p_7_2f_x + q0r0_z * p_7_2f_z);
   const Real p_7_0f_y = q0r1_y * h2b_y + (q0r1_x * p_7_2f_x - q0r1_z * p_7_2f_z);
   const Real p_7_0f_z = q0r2_y * h2b_y - (q0r2_x * p_7_2f_x + q0r2_z * p_7_2f_z);
@@ -478,20 +480,20 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[9]) noe
   const Real t61 = S2b_yz * Real(0.9510565162951535);
   const Real S2at2r0_z = t61 + Real(0.04326237921249264);
   const Real S2at2r2_y = t61 - S2b_yy * Real(0.3090169943749474);
-  const Real h2c_x = h2at2_x + model.c4;
-  const Real h2c_z = h2at2_z + model.c5;
+  const Real h2c_x = h2at2_x + model.c6;
+  const Real h2c_z = h2at2_z + model.c7;
   const Real S2c_xy = S2b_xy * Real(0.9510565162951535) - (S2b_xz * Real(0.3090169943749474) + h2b_x *
       model.r_steer_x);
   const Real t87 = h2at2_z - model.h_z;
-  const Real S2c_xz = Real(0.9510565162951535) * S2at2r0_z - (model.r_steer_x * t87 + ((h2at2_x + model.c7) *
+  const Real S2c_xz = Real(0.9510565162951535) * S2at2r0_z - (model.r_steer_x * t87 + ((h2at2_x + model.c9) *
       model.r_steer_z + Real(0.3090169943749474) * (S2at2r0_y - model.SR_z)) + Real(25.349999999999998));
   const Real S2c_yy = S2b_xx - Real(0.5002999999999995);
   const Real S2c_yz = S2b_xz * Real(0.9510565162951535) + (S2b_xy * Real(0.3090169943749474) - h2b_x *
       model.r_steer_z);
   const Real S1c_xx = Real(0.3090169943749474) * (S2at2r0_z + model.SR_x) + (Real(0.9510565162951535) *
-      S2at2r0_y + (h2at2_x + model.h_x) * model.c12) + model.c14;
-  const Real S1c_zz = Real(0.9510565162951535) * (t58 - model.c16) + (Real(0.3090169943749474) * S2at2r2_y -
-      t87 * model.c15) - model.c17;
+      S2at2r0_y + (h2at2_x + model.h_x) * model.c14) + model.c16;
+  const Real S1c_zz = Real(0.9510565162951535) * (t58 - model.c18) + (Real(0.3090169943749474) * S2at2r2_y -
+      t87 * model.c17) - model.c19;
   const Real w2p_y = state.z[5] * Real(0.3090169943749474) - state.z[3] * Real(0.9510565162951535);
   const Real w2p_z = state.z[3] * Real(0.3090169943749474) + state.z[5] * Real(0.9510565162951535);
   const Real w2_z = state.z[7] + w2p_z;
@@ -579,8 +581,8 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real h2b_y = c2 * model.front_h_y;
   const Real h2at2_x = h2b_y * Real(0.9510565162951535);
   const Real h2at2_z = h2b_y * Real(0.3090169943749474);
-  const Real h2c_x = h2at2_x + model.c20;
-  const Real h2c_z = h2at2_z + model.c21;
+  const Real h2c_x = h2at2_x + model.c22;
+  const Real h2c_z = h2at2_z + model.c23;
   const Real g0_x = q0r2_x * Real(9.81);
   const Real g0_y = q0r2_y * Real(9.81);
   const Real g0_z = q0r2_z * Real(9.81);
@@ -622,8 +624,8 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   detail::sine_cosine(state.y[8], s2, c2);
   const Real front_contactbx3_x = s2 * model.r_front_y;
   const Real front_contactbx3_y = c2 * model.r_front_y;
-  const Real front_contactbx2p_x = front_contactbx3_y * Real(0.9510565162951535) + model.c23;
-  const Real front_contactbx2p_z = front_contactbx3_y * Real(0.3090169943749474) + model.c24;
+  const Real front_contactbx2p_x = front_contactbx3_y * Real(0.9510565162951535) + model.c25;
+  const Real front_contactbx2p_z = front_contactbx3_y * Real(0.3090169943749474) + model.c26;
   const Real front_contactbd2p_x = s2 * Real(0.9510565162951535);
   const Real front_contactbd2p_z = s2 * Real(0.3090169943749474);
   const Real front_contactbd0p_z = q0r2_y * c2 - (q0r2_x * front_contactbd2p_x + q0r2_z *
@@ -723,25 +725,25 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t298 = Real(0.9510565162951535) * S2b_yz;
   const Real S2at2r0_z = t298 + Real(0.04326237921249264);
   const Real S2at2r2_y = t298 - Real(0.3090169943749474) * S2b_yy;
-  const Real h2c_x = h2at2_x + model.c4;
-  const Real h2c_z = h2at2_z + model.c5;
+  const Real h2c_x = h2at2_x + model.c6;
+  const Real h2c_z = h2at2_z + model.c7;
   const Real t313 = h2b_x * model.r_steer_x;
   const Real S2c_xy = Real(0.9510565162951535) * S2b_xy - (Real(0.3090169943749474) * S2b_xz + t313);
   const Real t324 = h2at2_z - model.h_z;
-  const Real S2c_xz = model.r_steer_x * t324 - (Real(0.9510565162951535) * S2at2r0_z - ((h2at2_x + model.c7) *
+  const Real S2c_xz = model.r_steer_x * t324 - (Real(0.9510565162951535) * S2at2r0_z - ((h2at2_x + model.c9) *
       model.r_steer_z + Real(0.3090169943749474) * (S2at2r0_y - model.SR_z))) + Real(25.349999999999998);
   const Real S2c_yy = S2b_xx - Real(0.5002999999999995);
   const Real t333 = h2b_x * model.r_steer_z;
   const Real S2c_yz = Real(0.9510565162951535) * S2b_xz + (Real(0.3090169943749474) * S2b_xy - t333);
   const Real S1c_xx = Real(0.3090169943749474) * (S2at2r0_z + model.SR_x) + (Real(0.9510565162951535) *
-      S2at2r0_y + (h2at2_x + model.h_x) * model.c12) + model.c14;
-  const Real S1c_zz = Real(0.9510565162951535) * (t295 - model.c16) + (Real(0.3090169943749474) * S2at2r2_y -
-      t324 * model.c15) - model.c17;
+      S2at2r0_y + (h2at2_x + model.h_x) * model.c14) + model.c16;
+  const Real S1c_zz = Real(0.9510565162951535) * (t295 - model.c18) + (Real(0.3090169943749474) * S2at2r2_y -
+      t324 * model.c17) - model.c19;
   const Real p_7_2l_x = h2b_y * model.r_steer_z;
   const Real p_7_2l_z = h2b_y * model.r_steer_x;
-  const Real p_7_2n_x = t298 - p_7_2l_x + model.c18;
+  const Real p_7_2n_x = t298 - p_7_2l_x + model.c20;
   const Real p_7_2n_y = t313 * Real(0.3090169943749474) + (S2b_xz - t333 * Real(0.9510565162951535));
-  const Real p_7_2n_z = t295 + p_7_2l_z - model.c19;
+  const Real p_7_2n_z = t295 + p_7_2l_z - model.c21;
   const Real p_7_0f_x = front_contactbd0p_x * model.front_h_y;
   const Real p_7_0f_y = front_contactbd0p_y * model.front_h_y;
   const Real p_7_0f_z = front_contactbd0p_z * model.front_h_y;
@@ -752,17 +754,17 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t397 = p_8_2n_z * Real(3.571428571428571);
   const Real t401 = p_8_3N_x * Real(3.571428571428571);
   const Real t404 = p_8_2n_x * Real(3.571428571428571);
-  const Real t407 = p_7_2n_z * model.c28;
+  const Real t407 = p_7_2n_z * model.c30;
   const Real t414 = p_8_3N_x * t397 + (S2c_yz + p_7_2n_y * t407);
   const Real t417 = p_8_2n_x * t397 + (S2c_xz - p_7_2n_x * t407);
   const Real t420 = q0r2_y * h2c_x - (q0r2_x * h2b_x - p_7_0f_z * t407);
   const Real t423 = q0r1_y * h2c_x + (q0r1_x * h2b_x + p_7_0f_y * t407);
   const Real t426 = q0r0_y * h2c_x + (q0r0_x * h2b_x + p_7_0f_x * t407);
-  const Real t427 = p_7_2n_y * model.c28;
-  const Real t433 = p_7_2n_x * model.c28;
-  const Real t438 = p_7_0f_z * model.c28;
-  const Real t442 = p_7_0f_y * model.c28;
-  const Real t445 = p_7_0f_x * model.c28;
+  const Real t427 = p_7_2n_y * model.c30;
+  const Real t433 = p_7_2n_x * model.c30;
+  const Real t438 = p_7_0f_z * model.c30;
+  const Real t442 = p_7_0f_y * model.c30;
+  const Real t445 = p_7_0f_x * model.c30;
   const Real t447 = Real(1.0) / (S1c_xx - (S2c_yy + (p_8_2n_z * t397 - p_7_2n_z * t407)));
   const Real t448 = t414 * t447;
   const Real t459 = p_8_2n_x * t401 + (S2c_xy + (p_7_2n_x * t427 + t417 * t448));
@@ -879,7 +881,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t926 = t518 * t737;
   const Real t927 = t486 * t726;
   const Real t928 = t447 * t715;
-  const Real t929 = front_contacts1bm_z * model.c28;
+  const Real t929 = front_contacts1bm_z * model.c30;
   const Real t940 = t589 * t924 - (t595 * t923 - (t583 * t925 + (t576 * t926 - (t566 * t927 - t138 * t928))));
   const Real t969 = t563 * t815;
   const Real t970 = t554 * t807;
@@ -887,7 +889,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t972 = t518 * t791;
   const Real t973 = t486 * t780;
   const Real t974 = t447 * t769;
-  const Real t975 = front_contacts2bm_z * model.c28;
+  const Real t975 = front_contacts2bm_z * model.c30;
   const Real t976 = front_contacts2bn3p_x * Real(3.571428571428571);
   const Real t987 = t589 * t970 - (t595 * t969 - (t583 * t971 + (t576 * t972 - (t566 * t973 - t138 * t974))));
   const Real t1030 = Real(1.0) / (t589 * (t554 * t589) + (t595 * (t563 * t595) - (t583 * (t539 * t583) + (t576
@@ -929,7 +931,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t1167 = t700 * t970 + (t707 * t969 + (t693 * t971 - (t685 * t972 - (t674 * t973 - (t663 * t974 -
       (t77 * t975 - (t902 * t1073 + (t1059 * t1119 + t1106 * t1157))))))));
   const Real t1170 = Real(1.0) / (t700 * t887 + (t707 * t886 - (t693 * t888 + (t685 * t889 + (t674 * t890 -
-      (t663 * t891 - (model.c28 * (t77 * t77) + (t902 * t1052 + (t1059 * t1098 + t1106 * t1132)))))))) +
+      (t663 * t891 - (model.c30 * (t77 * t77) + (t902 * t1052 + (t1059 * t1098 + t1106 * t1132)))))))) +
       Real(3.988016169236579e-12));
   const Real t1171 = t1155 * t1170;
   const Real t1186 = t1167 * t1170;
@@ -1082,7 +1084,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t1848 = t518 * t1812;
   const Real t1849 = t486 * t1796;
   const Real t1850 = t447 * t1779;
-  const Real t1851 = model.c28 * tau_2_0;
+  const Real t1851 = model.c30 * tau_2_0;
   const Real t1852 = Real(3.571428571428571) * rQp3;
   const Real t1902 = t589 * t1846 - (t595 * t1845 - (t583 * t1847 + (t576 * t1848 + (t566 * t1849 + (t138 *
       t1850 - model.rear_radius * (state.z[4] * t1315 + (state.z[3] * (t53 * (t1224 * t1290 - t51 * t1300) +
@@ -1192,7 +1194,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   zdot[4] = t2342;
   zdot[5] = t2353;
   zdot[6] = -(t2342 + Real(8.333333333333334) * (rear_contacts1bn0_y * t2228 + rear_contacts2bn0_y * t2229));
-  zdot[7] = -(t445 * t2318 + (model.c28 * (t77 * t2230 - (tau_2_0 - (front_contacts1bm_z * t2231 +
+  zdot[7] = -(t445 * t2318 + (model.c30 * (t77 * t2230 - (tau_2_0 - (front_contacts1bm_z * t2231 +
       front_contacts2bm_z * t2232))) - (t442 * t2321 + (t438 * t2326 + (t433 * t2333 - (t427 * t2342 - t407 *
       t2353))))));
   zdot[8] = -(t404 * t2333 + (Real(3.571428571428571) * (front_contacts1bn3p_x * t2231 - (rQp3 +
@@ -1241,20 +1243,20 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t70 = S2b_yz * Real(0.9510565162951535);
   const Real S2at2r0_z = t70 + Real(0.04326237921249264);
   const Real S2at2r2_y = t70 - S2b_yy * Real(0.3090169943749474);
-  const Real h2c_x = h2at2_x + model.c4;
-  const Real h2c_z = h2at2_z + model.c5;
+  const Real h2c_x = h2at2_x + model.c6;
+  const Real h2c_z = h2at2_z + model.c7;
   const Real S2c_xy = S2b_xy * Real(0.9510565162951535) - (S2b_xz * Real(0.3090169943749474) + h2b_x *
       model.r_steer_x);
   const Real t96 = h2at2_z - model.h_z;
-  const Real S2c_xz = Real(0.9510565162951535) * S2at2r0_z - (model.r_steer_x * t96 + ((h2at2_x + model.c7) *
+  const Real S2c_xz = Real(0.9510565162951535) * S2at2r0_z - (model.r_steer_x * t96 + ((h2at2_x + model.c9) *
       model.r_steer_z + Real(0.3090169943749474) * (S2at2r0_y - model.SR_z)) + Real(25.349999999999998));
   const Real S2c_yy = S2b_xx - Real(0.5002999999999995);
   const Real S2c_yz = S2b_xz * Real(0.9510565162951535) + (S2b_xy * Real(0.3090169943749474) - h2b_x *
       model.r_steer_z);
   const Real S1c_xx = Real(0.3090169943749474) * (S2at2r0_z + model.SR_x) + (Real(0.9510565162951535) *
-      S2at2r0_y + (h2at2_x + model.h_x) * model.c12) + model.c14;
-  const Real S1c_zz = Real(0.9510565162951535) * (t67 - model.c16) + (Real(0.3090169943749474) * S2at2r2_y -
-      t96 * model.c15) - model.c17;
+      S2at2r0_y + (h2at2_x + model.h_x) * model.c14) + model.c16;
+  const Real S1c_zz = Real(0.9510565162951535) * (t67 - model.c18) + (Real(0.3090169943749474) * S2at2r2_y -
+      t96 * model.c17) - model.c19;
   const Real S0b_zz = S2c_yy - S1c_xx;
   const Real Jx0 = S2c_yy + S1c_zz;
   const Real Jy0 = S1c_xx - S1c_zz;
@@ -1385,20 +1387,20 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real t64 = S2b_yz * Real(0.9510565162951535);
   const Real S2at2r0_z = t64 + Real(0.04326237921249264);
   const Real S2at2r2_y = t64 - S2b_yy * Real(0.3090169943749474);
-  const Real h2c_x = h2at2_x + model.c4;
-  const Real h2c_z = h2at2_z + model.c5;
+  const Real h2c_x = h2at2_x + model.c6;
+  const Real h2c_z = h2at2_z + model.c7;
   const Real S2c_xy = S2b_xy * Real(0.9510565162951535) - (S2b_xz * Real(0.3090169943749474) + h2b_x *
       model.r_steer_x);
   const Real t90 = h2at2_z - model.h_z;
-  const Real S2c_xz = Real(0.9510565162951535) * S2at2r0_z - (model.r_steer_x * t90 + ((h2at2_x + model.c7) *
+  const Real S2c_xz = Real(0.9510565162951535) * S2at2r0_z - (model.r_steer_x * t90 + ((h2at2_x + model.c9) *
       model.r_steer_z + Real(0.3090169943749474) * (S2at2r0_y - model.SR_z)) + Real(25.349999999999998));
   const Real S2c_yy = S2b_xx - Real(0.5002999999999995);
   const Real S2c_yz = S2b_xz * Real(0.9510565162951535) + (S2b_xy * Real(0.3090169943749474) - h2b_x *
       model.r_steer_z);
   const Real S1c_xx = Real(0.3090169943749474) * (S2at2r0_z + model.SR_x) + (Real(0.9510565162951535) *
-      S2at2r0_y + (h2at2_x + model.h_x) * model.c12) + model.c14;
-  const Real S1c_zz = Real(0.9510565162951535) * (t61 - model.c16) + (Real(0.3090169943749474) * S2at2r2_y -
-      t90 * model.c15) - model.c17;
+      S2at2r0_y + (h2at2_x + model.h_x) * model.c14) + model.c16;
+  const Real S1c_zz = Real(0.9510565162951535) * (t61 - model.c18) + (Real(0.3090169943749474) * S2at2r2_y -
+      t90 * model.c17) - model.c19;
   const Real S0b_zz = S2c_yy - S1c_xx;
   const Real Jx0 = S2c_yy + S1c_zz;
   const Real Jy0 = S1c_xx - S1c_zz;
@@ -1454,8 +1456,8 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
   const Real h2b_y = c2 * model.front_h_y;
   const Real h2at2_x = h2b_y * Real(0.9510565162951535);
   const Real h2at2_z = h2b_y * Real(0.3090169943749474);
-  const Real h2c_x = h2at2_x + model.c20;
-  const Real h2c_z = h2at2_z + model.c21;
+  const Real h2c_x = h2at2_x + model.c22;
+  const Real h2c_z = h2at2_z + model.c23;
   const Real hg0_z = q0r2_z * h2c_z + (model.front_h_y * (q0r2_y * s2) + (state.y[2] * Real(94.0) + q0r2_x *
       h2c_x));
   const Real V = hg0_z * Real(9.81);
@@ -1485,8 +1487,8 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   detail::sine_cosine(state.y[8], s2, c2);
   const Real front_contactbx3_x = s2 * model.r_front_y;
   const Real front_contactbx3_y = c2 * model.r_front_y;
-  const Real front_contactbx2p_x = front_contactbx3_y * Real(0.9510565162951535) + model.c23;
-  const Real front_contactbx2p_z = front_contactbx3_y * Real(0.3090169943749474) + model.c24;
+  const Real front_contactbx2p_x = front_contactbx3_y * Real(0.9510565162951535) + model.c25;
+  const Real front_contactbx2p_z = front_contactbx3_y * Real(0.3090169943749474) + model.c26;
   const Real front_contactbd2p_x = s2 * Real(0.9510565162951535);
   const Real front_contactbd2p_z = s2 * Real(0.3090169943749474);
   const Real front_contactbd0p_z = q0r2_y * c2 - (q0r2_x * front_contactbd2p_x + q0r2_z *
@@ -1497,14 +1499,14 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real t58 = state.y[4] * Real(0.5);
   const Real t59 = state.y[5] * Real(0.5);
   const Real t60 = state.y[6] * Real(0.5);
-  const Real t65 = (front_contactbd0p_z + front_contactbd0p_z) / front_contactup * model.c29;
+  const Real t65 = (front_contactbd0p_z + front_contactbd0p_z) / front_contactup * model.c31;
   const Real t74 = front_contactbx2p_z + front_contactbd2p_z * t65;
   const Real t75 = front_contactbx3_x - c2 * t65;
   const Real t76 = front_contactbx2p_x + front_contactbd2p_x * t65;
   const Real t87 = c2 * (Real(0.9510565162951535) * (q0r2_x * t65) + (Real(0.3090169943749474) * (q0r2_z *
       t65) + q0r2_y * model.r_front_y)) + s2 * (q0r2_y * t65 - model.r_front_y * (q0r2_z *
       Real(0.3090169943749474) + q0r2_x * Real(0.9510565162951535)));
-  const Real t94 = (q0r2_y + q0r2_y) / rear_contactup * model.c30;
+  const Real t94 = (q0r2_y + q0r2_y) / rear_contactup * model.c32;
   const Real t96 = q0d1 * t94;
   const Real t99 = q0d2 * t76 - q0d1 * t75;
   const Real t119 = q0d2 * t94;
@@ -1578,21 +1580,21 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real t308 = Real(0.9510565162951535) * S2b_yz;
   const Real S2at2r0_z = t308 + Real(0.04326237921249264);
   const Real S2at2r2_y = t308 - Real(0.3090169943749474) * S2b_yy;
-  const Real h2c_x = h2at2_x + model.c4;
-  const Real h2c_z = h2at2_z + model.c5;
+  const Real h2c_x = h2at2_x + model.c6;
+  const Real h2c_z = h2at2_z + model.c7;
   const Real t323 = h2b_x * model.r_steer_x;
   const Real S2c_yy = S2b_xx - Real(0.5002999999999995);
   const Real t327 = h2b_x * model.r_steer_z;
   const Real S1c_xx = Real(0.3090169943749474) * (S2at2r0_z + model.SR_x) + (Real(0.9510565162951535) *
-      S2at2r0_y + (h2at2_x + model.h_x) * model.c12) + model.c14;
+      S2at2r0_y + (h2at2_x + model.h_x) * model.c14) + model.c16;
   const Real t340 = h2at2_z - model.h_z;
-  const Real S1c_zz = Real(0.9510565162951535) * (t305 - model.c16) + (Real(0.3090169943749474) * S2at2r2_y -
-      t340 * model.c15) - model.c17;
+  const Real S1c_zz = Real(0.9510565162951535) * (t305 - model.c18) + (Real(0.3090169943749474) * S2at2r2_y -
+      t340 * model.c17) - model.c19;
   const Real p_7_2l_x = h2b_y * model.r_steer_z;
   const Real p_7_2l_z = h2b_y * model.r_steer_x;
-  const Real p_7_2n_x = p_7_2l_x - (t308 + model.c18);
+  const Real p_7_2n_x = p_7_2l_x - (t308 + model.c20);
   const Real p_7_2n_y = t323 * Real(0.3090169943749474) + (S2b_xz - t327 * Real(0.9510565162951535));
-  const Real p_7_2n_z = p_7_2l_z + (t305 - model.c19);
+  const Real p_7_2n_z = p_7_2l_z + (t305 - model.c21);
   const Real p_7_0f_x = front_contactbd0p_x * model.front_h_y;
   const Real p_7_0f_y = front_contactbd0p_y * model.front_h_y;
   const Real p_7_0f_z = front_contactbd0p_z * model.front_h_y;
@@ -1603,20 +1605,20 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real t391 = p_8_2n_z * Real(3.571428571428571);
   const Real t395 = p_8_3N_x * Real(3.571428571428571);
   const Real t398 = p_8_2n_x * Real(3.571428571428571);
-  const Real t401 = p_7_2n_z * model.c28;
+  const Real t401 = p_7_2n_z * model.c30;
   const Real t410 = Real(0.9510565162951535) * S2b_xz + (Real(0.3090169943749474) * S2b_xy - (t327 - (p_8_3N_x
       * t391 + p_7_2n_y * t401)));
   const Real t425 = Real(0.9510565162951535) * S2at2r0_z - (p_8_2n_x * t391 + (p_7_2n_x * t401 +
-      (model.r_steer_x * t340 + (model.r_steer_z * (h2at2_x + model.c7) + Real(0.3090169943749474) *
+      (model.r_steer_x * t340 + (model.r_steer_z * (h2at2_x + model.c9) + Real(0.3090169943749474) *
       (S2at2r0_y - model.SR_z)))) + Real(25.349999999999998));
   const Real t428 = q0r2_y * h2c_x - (q0r2_x * h2b_x - p_7_0f_z * t401);
   const Real t431 = q0r1_y * h2c_x + (q0r1_x * h2b_x + p_7_0f_y * t401);
   const Real t434 = q0r0_y * h2c_x + (q0r0_x * h2b_x + p_7_0f_x * t401);
-  const Real t435 = p_7_2n_y * model.c28;
-  const Real t441 = p_7_2n_x * model.c28;
-  const Real t446 = p_7_0f_z * model.c28;
-  const Real t450 = p_7_0f_y * model.c28;
-  const Real t453 = p_7_0f_x * model.c28;
+  const Real t435 = p_7_2n_y * model.c30;
+  const Real t441 = p_7_2n_x * model.c30;
+  const Real t446 = p_7_0f_z * model.c30;
+  const Real t450 = p_7_0f_y * model.c30;
+  const Real t453 = p_7_0f_x * model.c30;
   const Real t455 = Real(1.0) / (S1c_xx - (S2c_yy + (p_8_2n_z * t391 - p_7_2n_z * t401)));
   const Real t456 = t410 * t455;
   const Real t469 = Real(0.9510565162951535) * S2b_xy - (Real(0.3090169943749474) * S2b_xz + (t323 - (p_8_2n_x
@@ -1733,7 +1735,7 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real t937 = t528 * t748;
   const Real t938 = t496 * t737;
   const Real t939 = t455 * t726;
-  const Real t940 = front_contacts1bm_z * model.c28;
+  const Real t940 = front_contacts1bm_z * model.c30;
   const Real t951 = t599 * t935 - (t605 * t934 + (t593 * t936 - (t586 * t937 - (t576 * t938 - t149 * t939))));
   const Real t980 = t573 * t826;
   const Real t981 = t564 * t818;
@@ -1741,7 +1743,7 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real t983 = t528 * t802;
   const Real t984 = t496 * t791;
   const Real t985 = t455 * t780;
-  const Real t986 = front_contacts2bm_z * model.c28;
+  const Real t986 = front_contacts2bm_z * model.c30;
   const Real t987 = front_contacts2bn3p_x * Real(3.571428571428571);
   const Real t998 = t599 * t981 - (t605 * t980 + (t593 * t982 - (t586 * t983 - (t576 * t984 - t149 * t985))));
   const Real t1041 = Real(1.0) / (t605 * (t573 * t605) + (t599 * (t564 * t599) + (t593 * (t549 * t593) - (t586
@@ -1783,7 +1785,7 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real t1178 = t711 * t981 + (t718 * t980 - (t704 * t982 + (t696 * t983 + (t685 * t984 + (t674 * t985 -
       (t87 * t986 - (t913 * t1084 + (t1070 * t1130 + t1117 * t1168))))))));
   const Real t1181 = Real(1.0) / (t718 * t897 + (t711 * t898 + (t704 * t899 - (t696 * t900 - (t685 * t901 +
-      (t674 * t902 - (model.c28 * (t87 * t87) + (t913 * t1063 + (t1070 * t1109 + t1117 * t1143))))))) +
+      (t674 * t902 - (model.c30 * (t87 * t87) + (t913 * t1063 + (t1070 * t1109 + t1117 * t1143))))))) +
       Real(3.988016169236579e-12)));
   const Real t1182 = t1166 * t1181;
   const Real t1197 = t1178 * t1181;
@@ -1827,7 +1829,7 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
       * t1380 - (t482 * t1387 + t456 * t1396))));
   const Real t1409 = t1396 - Real(8.333333333333334) * (rear_contacts1bn0_y * t1284 + rear_contacts2bn0_y *
       t1276);
-  const Real t1410 = model.c28 * (front_contacts1bm_z * t1266 + (t87 * t1270 + front_contacts2bm_z * t1264));
+  const Real t1410 = model.c30 * (front_contacts1bm_z * t1266 + (t87 * t1270 + front_contacts2bm_z * t1264));
   const Real t1411 = t453 * t1372;
   const Real t1412 = t450 * t1375;
   const Real t1413 = t446 * t1380;
@@ -1895,8 +1897,8 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real c2_2 = s2 * t1542 + c2 * t1545;
   const Real front_contactbx3_x_2 = model.r_front_y * s2_2;
   const Real front_contactbx3_y_2 = model.r_front_y * c2_2;
-  const Real front_contactbx2p_x_2 = model.c23 - Real(0.9510565162951535) * front_contactbx3_y_2;
-  const Real front_contactbx2p_z_2 = model.c24 - Real(0.3090169943749474) * front_contactbx3_y_2;
+  const Real front_contactbx2p_x_2 = model.c25 - Real(0.9510565162951535) * front_contactbx3_y_2;
+  const Real front_contactbx2p_z_2 = model.c26 - Real(0.3090169943749474) * front_contactbx3_y_2;
   const Real front_contactbd2p_x_2 = Real(0.9510565162951535) * s2_2;
   const Real front_contactbd2p_z_2 = Real(0.3090169943749474) * s2_2;
   const Real front_contactbd0p_z_2 = q0r2_y_2 * c2_2 + (q0r2_x_2 * front_contactbd2p_x_2 - q0r2_z_2 *
@@ -1907,11 +1909,11 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real t1569 = Real(0.5) * t1477;
   const Real t1570 = Real(0.5) * t1478;
   const Real t1571 = Real(0.5) * t1479;
-  const Real t1575 = model.c29 * ((front_contactbd0p_z_2 + front_contactbd0p_z_2) / front_contactup_2);
+  const Real t1575 = model.c31 * ((front_contactbd0p_z_2 + front_contactbd0p_z_2) / front_contactup_2);
   const Real t1584 = front_contactbx2p_z_2 + front_contactbd2p_z_2 * t1575;
   const Real t1585 = front_contactbx3_x_2 + c2_2 * t1575;
   const Real t1586 = front_contactbx2p_x_2 + front_contactbd2p_x_2 * t1575;
-  const Real t1603 = model.c30 * ((q0r2_y_2 + q0r2_y_2) / rear_contactup_2);
+  const Real t1603 = model.c32 * ((q0r2_y_2 + q0r2_y_2) / rear_contactup_2);
   const Real t1605 = q0d1_2 * t1603;
   const Real t1608 = q0d2_2 * t1586 - q0d1_2 * t1585;
   const Real t1627 = q0d2_2 * t1603;
@@ -2049,7 +2051,7 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   closed.z[5] = state.z[5] - t2070;
   closed.z[6] = -(t2059 - (state.z[6] + Real(8.333333333333334) * (rear_contacts1bn0_y * t1947 +
       rear_contacts2bn0_y * t1939)));
-  closed.z[7] = model.c28 * (front_contacts1bm_z * t1929 + (t87 * t1933 - front_contacts2bm_z * t1927)) +
+  closed.z[7] = model.c30 * (front_contacts1bm_z * t1929 + (t87 * t1933 - front_contacts2bm_z * t1927)) +
       (state.z[7] + (t453 * t2035 + (t450 * t2038 + (t446 * t2043 + (t441 * t2050 - (t435 * t2059 + t401 *
       t2070))))));
   closed.z[8] = Real(3.571428571428571) * (front_contacts1bn3p_x * t1929 + front_contacts2bn3p_x * t1927) +
@@ -2084,8 +2086,8 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   detail::sine_cosine(state.y[8], s2, c2);
   const Real front_contactbx3_x = s2 * model.r_front_y;
   const Real front_contactbx3_y = c2 * model.r_front_y;
-  const Real front_contactbx2p_x = front_contactbx3_y * Real(0.9510565162951535) + model.c31;
-  const Real front_contactbx2p_z = front_contactbx3_y * Real(0.3090169943749474) + model.c32;
+  const Real front_contactbx2p_x = front_contactbx3_y * Real(0.9510565162951535) + model.c33;
+  const Real front_contactbx2p_z = front_contactbx3_y * Real(0.3090169943749474) + model.c34;
   const Real front_contactbd2p_x = s2 * Real(0.9510565162951535);
   const Real front_contactbd2p_z = s2 * Real(0.3090169943749474);
   const Real front_contactbd0p_z = q0r2_z * front_contactbd2p_z + (q0r2_x * front_contactbd2p_x - q0r2_y *
@@ -2097,7 +2099,7 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real t60 = q0r2_y + q0r2_y;
   const Real t61 = Real(1.0) / rear_contactup;
   const Real t63 = t61 * Real(0.5);
-  const Real t67 = (front_contactbd0p_z + front_contactbd0p_z) / front_contactup * model.c29;
+  const Real t67 = (front_contactbd0p_z + front_contactbd0p_z) / front_contactup * model.c31;
   const Real t70 = q0r2_x * t67;
   const Real t71 = front_contactbx2p_x - front_contactbd2p_x * t67;
   const Real t74 = q0r2_z * Real(0.3090169943749474) + q0r2_x * Real(0.9510565162951535);
@@ -2221,8 +2223,8 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   detail::sine_cosine(state.y[8], s2, c2);
   const Real front_contactbx3_x = s2 * model.r_front_y;
   const Real front_contactbx3_y = c2 * model.r_front_y;
-  const Real front_contactbx2p_x = front_contactbx3_y * Real(0.9510565162951535) + model.c23;
-  const Real front_contactbx2p_z = front_contactbx3_y * Real(0.3090169943749474) + model.c24;
+  const Real front_contactbx2p_x = front_contactbx3_y * Real(0.9510565162951535) + model.c25;
+  const Real front_contactbx2p_z = front_contactbx3_y * Real(0.3090169943749474) + model.c26;
   const Real front_contactbd2p_x = s2 * Real(0.9510565162951535);
   const Real front_contactbd2p_z = s2 * Real(0.3090169943749474);
   const Real front_contactbd0p_z = q0r2_y * c2 - (q0r2_x * front_contactbd2p_x + q0r2_z *
@@ -2322,25 +2324,25 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t298 = Real(0.9510565162951535) * S2b_yz;
   const Real S2at2r0_z = t298 + Real(0.04326237921249264);
   const Real S2at2r2_y = t298 - Real(0.3090169943749474) * S2b_yy;
-  const Real h2c_x = h2at2_x + model.c4;
-  const Real h2c_z = h2at2_z + model.c5;
+  const Real h2c_x = h2at2_x + model.c6;
+  const Real h2c_z = h2at2_z + model.c7;
   const Real t313 = h2b_x * model.r_steer_x;
   const Real S2c_xy = Real(0.9510565162951535) * S2b_xy - (Real(0.3090169943749474) * S2b_xz + t313);
   const Real t324 = h2at2_z - model.h_z;
-  const Real S2c_xz = model.r_steer_x * t324 - (Real(0.9510565162951535) * S2at2r0_z - ((h2at2_x + model.c7) *
+  const Real S2c_xz = model.r_steer_x * t324 - (Real(0.9510565162951535) * S2at2r0_z - ((h2at2_x + model.c9) *
       model.r_steer_z + Real(0.3090169943749474) * (S2at2r0_y - model.SR_z))) + Real(25.349999999999998);
   const Real S2c_yy = S2b_xx - Real(0.5002999999999995);
   const Real t333 = h2b_x * model.r_steer_z;
   const Real S2c_yz = Real(0.9510565162951535) * S2b_xz + (Real(0.3090169943749474) * S2b_xy - t333);
   const Real S1c_xx = Real(0.3090169943749474) * (S2at2r0_z + model.SR_x) + (Real(0.9510565162951535) *
-      S2at2r0_y + (h2at2_x + model.h_x) * model.c12) + model.c14;
-  const Real S1c_zz = Real(0.9510565162951535) * (t295 - model.c16) + (Real(0.3090169943749474) * S2at2r2_y -
-      t324 * model.c15) - model.c17;
+      S2at2r0_y + (h2at2_x + model.h_x) * model.c14) + model.c16;
+  const Real S1c_zz = Real(0.9510565162951535) * (t295 - model.c18) + (Real(0.3090169943749474) * S2at2r2_y -
+      t324 * model.c17) - model.c19;
   const Real p_7_2l_x = h2b_y * model.r_steer_z;
   const Real p_7_2l_z = h2b_y * model.r_steer_x;
-  const Real p_7_2n_x = t298 - p_7_2l_x + model.c18;
+  const Real p_7_2n_x = t298 - p_7_2l_x + model.c20;
   const Real p_7_2n_y = t313 * Real(0.3090169943749474) + (S2b_xz - t333 * Real(0.9510565162951535));
-  const Real p_7_2n_z = t295 + p_7_2l_z - model.c19;
+  const Real p_7_2n_z = t295 + p_7_2l_z - model.c21;
   const Real p_7_0f_x = front_contactbd0p_x * model.front_h_y;
   const Real p_7_0f_y = front_contactbd0p_y * model.front_h_y;
   const Real p_7_0f_z = front_contactbd0p_z * model.front_h_y;
@@ -2351,17 +2353,17 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t397 = p_8_2n_z * Real(3.571428571428571);
   const Real t401 = p_8_3N_x * Real(3.571428571428571);
   const Real t404 = p_8_2n_x * Real(3.571428571428571);
-  const Real t407 = p_7_2n_z * model.c28;
+  const Real t407 = p_7_2n_z * model.c30;
   const Real t414 = p_8_3N_x * t397 + (S2c_yz + p_7_2n_y * t407);
   const Real t417 = p_8_2n_x * t397 + (S2c_xz - p_7_2n_x * t407);
   const Real t420 = q0r2_y * h2c_x - (q0r2_x * h2b_x - p_7_0f_z * t407);
   const Real t423 = q0r1_y * h2c_x + (q0r1_x * h2b_x + p_7_0f_y * t407);
   const Real t426 = q0r0_y * h2c_x + (q0r0_x * h2b_x + p_7_0f_x * t407);
-  const Real t427 = p_7_2n_y * model.c28;
-  const Real t433 = p_7_2n_x * model.c28;
-  const Real t438 = p_7_0f_z * model.c28;
-  const Real t442 = p_7_0f_y * model.c28;
-  const Real t445 = p_7_0f_x * model.c28;
+  const Real t427 = p_7_2n_y * model.c30;
+  const Real t433 = p_7_2n_x * model.c30;
+  const Real t438 = p_7_0f_z * model.c30;
+  const Real t442 = p_7_0f_y * model.c30;
+  const Real t445 = p_7_0f_x * model.c30;
   const Real t447 = Real(1.0) / (S1c_xx - (S2c_yy + (p_8_2n_z * t397 - p_7_2n_z * t407)));
   const Real t448 = t414 * t447;
   const Real t459 = p_8_2n_x * t401 + (S2c_xy + (p_7_2n_x * t427 + t417 * t448));
@@ -2478,7 +2480,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t926 = t518 * t737;
   const Real t927 = t486 * t726;
   const Real t928 = t447 * t715;
-  const Real t929 = front_contacts1bm_z * model.c28;
+  const Real t929 = front_contacts1bm_z * model.c30;
   const Real t940 = t589 * t924 - (t595 * t923 - (t583 * t925 + (t576 * t926 - (t566 * t927 - t138 * t928))));
   const Real t969 = t563 * t815;
   const Real t970 = t554 * t807;
@@ -2486,7 +2488,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t972 = t518 * t791;
   const Real t973 = t486 * t780;
   const Real t974 = t447 * t769;
-  const Real t975 = front_contacts2bm_z * model.c28;
+  const Real t975 = front_contacts2bm_z * model.c30;
   const Real t976 = front_contacts2bn3p_x * Real(3.571428571428571);
   const Real t987 = t589 * t970 - (t595 * t969 - (t583 * t971 + (t576 * t972 - (t566 * t973 - t138 * t974))));
   const Real t1030 = Real(1.0) / (t589 * (t554 * t589) + (t595 * (t563 * t595) - (t583 * (t539 * t583) + (t576
@@ -2528,7 +2530,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t1167 = t700 * t970 + (t707 * t969 + (t693 * t971 - (t685 * t972 - (t674 * t973 - (t663 * t974 -
       (t77 * t975 - (t902 * t1073 + (t1059 * t1119 + t1106 * t1157))))))));
   const Real t1170 = Real(1.0) / (t700 * t887 + (t707 * t886 - (t693 * t888 + (t685 * t889 + (t674 * t890 -
-      (t663 * t891 - (model.c28 * (t77 * t77) + (t902 * t1052 + (t1059 * t1098 + t1106 * t1132)))))))) +
+      (t663 * t891 - (model.c30 * (t77 * t77) + (t902 * t1052 + (t1059 * t1098 + t1106 * t1132)))))))) +
       Real(3.988016169236579e-12));
   const Real t1171 = t1155 * t1170;
   const Real t1186 = t1167 * t1170;
@@ -2680,7 +2682,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t1848 = t518 * t1812;
   const Real t1849 = t486 * t1796;
   const Real t1850 = t447 * t1779;
-  const Real t1851 = model.c28 * tau_2_0;
+  const Real t1851 = model.c30 * tau_2_0;
   const Real t1852 = Real(3.571428571428571) * rQp3;
   const Real t1902 = t589 * t1846 - (t595 * t1845 - (t583 * t1847 + (t576 * t1848 + (t566 * t1849 + (t138 *
       t1850 - model.rear_radius * (state.z[4] * t1315 + (state.z[3] * (t53 * (t1224 * t1290 - t51 * t1300) +

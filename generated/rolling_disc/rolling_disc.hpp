@@ -114,12 +114,12 @@ struct Model {
     return state.regularity >= Real(least_regularity) && state.opening <= Real(greatest_opening);
   }
 
+  Real radius;
   Real mass;
   Real S0b_zz;
   Real Jy0;
   Real kdS00;
   Real q_2;
-  Real radius;
   Real c6;
   Real c7;
   Real c8;

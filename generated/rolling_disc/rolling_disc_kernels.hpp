@@ -79,17 +79,17 @@ Model<Real>::Model(const Parameters& parameters) noexcept {
   c9 = c6 + Real(4.9999999999999995e-11);
   c10 = q_2 * c6;
   c12 = Real(0.5) * mass;
-  c13 = Real(0.5) * radius;
+  c13 = radius * Real(0.5);
   c14 = Real(1.0) / S0b_zz;
   c15 = kdS00 * c7;
 }
 
 template <class Real> JOURDAIN_FUNCTION
-State<Real> initial_state(const Model<Real>&) noexcept {
+State<Real> initial_state(const Model<Real>& model) noexcept {
   State<Real> initial;
   initial.y[0] = Real(0.0);
   initial.y[1] = Real(0.0);
-  initial.y[2] = Real(0.5);
+  initial.y[2] = model.radius;
   initial.y[3] = Real(1.0);
   initial.y[4] = Real(0.0);
   initial.y[5] = Real(0.0);

@@ -12,10 +12,12 @@
 #include "commands/input_table.hpp"
 #include "compile/start_check.hpp"
 #include "loops/plan/parameter_check.hpp"
+#include "loops/plan/start_at.hpp"
 #include "model/check/checks.hpp"
 #include "model/coordinates.hpp"
 #include "model/read/read.hpp"
 #include "model/read/scenario.hpp"
+#include "reference/minimal.hpp"
 #include "studies/driven_inputs.hpp"
 #include "support/files.hpp"
 
@@ -147,6 +149,66 @@ std::optional<RunModel> read_run(const RunArguments& arguments, int& status) {
   return model;
 }
 
+namespace {
+
+/// Initial values of the tree at the settings, and at the default values, where those differ; none without loops.
+std::optional<std::pair<reference::State<double>, reference::State<double>>> start_of_tree(
+    const RunModel& model) {
+  const model::Mechanism& mechanism = model.loaded.mechanism;
+  const std::vector<double> defaults = model::default_values(mechanism);
+  if (!model.loaded.plan() || model.parameters.empty() || model.parameters == defaults) return {};
+  const auto given = reference::Reference<double>(mechanism, model.parameters).initial_state(),
+             usual = reference::Reference<double>(mechanism, defaults).initial_state();
+  if (given.y == usual.y && given.z == usual.z) return {};
+  return std::pair(given, usual);
+}
+
+/// y and z of the state that the description starts from at the settings, closed; empty where emitted code knows it.
+std::vector<double> start_at_settings(const RunModel& model) {
+  const auto tree = start_of_tree(model);
+  if (!tree) return {};
+  model::Mechanism mechanism = model.loaded.mechanism;
+  for (std::size_t i = 0; i < mechanism.parameters.size(); ++i)
+    mechanism.parameters[i].value = model.parameters[i];
+  support::Diagnostics diagnostics("--set", "");
+  const loops::LoopPlan& plan = *model.loaded.plan();
+  const std::optional<loops::Start> start = loops::start_of(mechanism, plan, diagnostics);
+  if (!start) return {};  // what does not close is told where the run looks at its start
+  std::vector<double> x(start->configuration.y.begin(), start->configuration.y.end());
+  const Eigen::VectorXd& given = tree->first.z;
+  const auto velocity = [&](std::size_t k) {
+    return static_cast<double>(k < std::size_t(start->z.size()) ? start->z[Eigen::Index(k)]
+                                                                : given[Eigen::Index(k)]);
+  };
+  for (std::size_t k = 0; !plan.is_reduced() && k < std::size_t(given.size()); ++k) x.push_back(velocity(k));
+  for (const std::size_t k : plan.independent) x.push_back(velocity(k));
+  return x;
+}
+
+/// Says what the settings ask the start to be and the loops do not leave so.
+void tell_moved_start(const RunModel& model, const studies::Flow<double>& flow) {
+  const auto tree = start_of_tree(model);
+  if (!tree) return;
+  constexpr double kNoticeable = 1e-9;
+  const model::CoordinateLayout layout = model::lay_out_coordinates(model.loaded.mechanism);
+  const auto& [given, usual] = *tree;
+  const std::vector<double> start = flow.start().x;
+  const auto compare = [&](const std::vector<std::string>& names, const Eigen::VectorXd& wanted,
+                           const Eigen::VectorXd& before, std::size_t first, const char* rate) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const double asked = wanted[Eigen::Index(i)], found = start[first + i];
+      if (asked != before[Eigen::Index(i)] && std::fabs(found - asked) > kNoticeable * (1 + std::fabs(asked)))
+        fmt::print(stderr, "note: the loops close with {}{} = {:.10g} instead of {:.10g}\n", names[i], rate,
+                   found, asked);
+    }
+  };
+  compare(layout.position_names, given.y, usual.y, 0, "");
+  if (start.size() == layout.position_count() + layout.velocity_count())  // otherwise of independent ones
+    compare(layout.velocity_names, given.z, usual.z, layout.position_count(), "'s velocity");
+}
+
+}  // namespace
+
 std::optional<RunInputs> read_inputs(const RunArguments& arguments, const RunModel& model,
                                      const jourdain_model_table& table,
                                      const jourdain_model_table* long_table, int& status) {
@@ -166,6 +228,7 @@ std::optional<RunInputs> read_inputs(const RunArguments& arguments, const RunMod
     const bool any = std::any_of(values.begin(), values.end(), [](double u) { return u != 0; });
     run = RunInputs{std::make_unique<studies::ConstantInputs>(values), {}, any ? "constant inputs" : ""};
   }
+  if (run && run->start.empty()) run->start = start_at_settings(model);
   if (run) status = kSuccess;
   return run;
 }
@@ -174,7 +237,10 @@ bool check_closed(const RunModel& model, const studies::Flow<double>& flow) {
   constexpr double kOpen = 1e7;  // units of rounding
   const studies::Residuals open = flow.residuals(flow.start());
   const double allowed = kOpen * flow.table().unit_roundoff;
-  if (open.position <= allowed && open.velocity <= allowed) return true;
+  if (open.position <= allowed && open.velocity <= allowed) {
+    if (flow.has_loops()) tell_moved_start(model, flow);
+    return true;
+  }
   fmt::print(stderr, "error: the loops of '{}' do not close {}: they are open by {:.2g} (rate {:.2g}/s)\n",
              model.loaded.mechanism.name,
              model.parameters.empty() ? "at the start" : "at these values of its parameters", open.position,

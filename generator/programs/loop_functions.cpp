@@ -1,6 +1,5 @@
 #include "programs/loop_functions.hpp"
 
-#include <algorithm>
 #include <map>
 
 #include "ir/compose.hpp"
@@ -243,16 +242,20 @@ class LoopProgram {
     write("g_rate", rate);
   }
 
+  /// Closed at the parameters' default values; what parameters give follows them where closing leaves it.
   void write_initial_state() {
-    for (std::size_t i = 0; i < system_.plan.y.size(); ++i)
-      builder_.output("y", static_cast<int>(i), -1, builder_.literal(system_.plan.y[i]));
-    if (system_.plan.is_reduced())
-      for (std::size_t j = 0; j < system_.plan.independent.size(); ++j)
-        builder_.output("z", static_cast<int>(j), -1,
-                        builder_.literal(system_.plan.z[system_.plan.independent[j]]));
-    else
-      for (std::size_t k = 0; k < system_.plan.z.size(); ++k)
-        builder_.output("z", static_cast<int>(k), -1, builder_.literal(system_.plan.z[k]));
+    const loops::LoopPlan& plan = system_.plan;
+    const Program tree = system_.tree(FunctionId::kInitialState);  // y, then z
+    const ir::Column given = insert(tree, {});
+    const auto put = [&](const char* name, std::size_t row, std::size_t entry, bool kept, double closed) {
+      const bool follows = kept && tree[tree.outputs[entry].value].op != ir::Op::kLiteral;
+      builder_.output(name, static_cast<int>(row), -1, follows ? given[entry] : builder_.literal(closed));
+    };
+    for (std::size_t i = 0; i < plan.y.size(); ++i) put("y", i, i, plan.kept_y[i], plan.y[i]);
+    for (std::size_t j = 0; j < (plan.is_reduced() ? plan.independent.size() : plan.z.size()); ++j) {
+      const std::size_t k = plan.is_reduced() ? plan.independent[j] : j;
+      put("z", j, plan.y.size() + k, plan.kept_z[k], plan.z[k]);
+    }
   }
 
   void write_outputs(const ir::Column& zdot) {

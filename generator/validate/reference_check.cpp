@@ -19,10 +19,9 @@ void compare_with_reference(const model::Mechanism& mechanism, const dynamics::E
                             const ir::LeafValues<ScaledReal>& leaves, const TreeOracle& symbolic,
                             Agreement& agreement) {
   const ExactReference reference(mechanism, leaves[LeafKind::kParameter]);
-  const reference::State<ScaledReal> state = {leaves[LeafKind::kTime][0],
-                                              to_exact(leaves[LeafKind::kPosition]),
-                                              to_exact(leaves[LeafKind::kVelocity]),
-                                              to_exact(leaves[LeafKind::kInput])};
+  const reference::State<ScaledReal> state = {
+      leaves[LeafKind::kTime][0], to_exact(leaves[LeafKind::kPosition]),
+      to_exact(leaves[LeafKind::kVelocity]), to_exact(leaves[LeafKind::kInput])};
   const ExactVector& u = state.u;
   const auto terms = reference.evaluate(state, u);
   const auto same = [&](const char* what, const std::vector<ScaledReal>& values,

@@ -123,6 +123,56 @@ TEST(LoopCommands, LoopsAreClosedAgainAtOtherParameters) {
   EXPECT_NEAR(piston, along + std::sqrt(kRod * kRod - across * across), 1e-12);
 }
 
+/// The number in the first row below this name.
+double at_start(const std::string& csv, const std::string& name) {
+  std::istringstream header(csv.substr(0, csv.find('\n')));
+  std::string field;
+  for (const double number : first_row(csv))
+    if (std::getline(header, field, ',') && field == name) return number;
+  ADD_FAILURE() << "no " << name << " in " << csv.substr(0, csv.find('\n'));
+  return 0;
+}
+
+/// Initial values that are expressions of parameters, of states too, and what is told where loops move them.
+TEST(LoopCommands, StartsFollowParameters) {
+  const support::TemporaryFolder folder;
+  const std::string csv = folder.path() + "/run.csv";
+  const auto run = [&](const std::string& model, const std::string& setting) {
+    return jourdain(
+        {"simulate", model, "--set", setting, "--duration", "0.01", "--step", "1e-3", "--output", csv});
+  };
+  const support::ProcessResult bicycle = run("models/bicycle.toml", "speed=6");
+  expect(bicycle, 0, "loops open by ");
+  EXPECT_NEAR(at_start(support::read_file(csv), "root_vx_velocity"), 6, 1e-12);
+  EXPECT_NEAR(at_start(support::read_file(csv), "rear_velocity"), -6 / 0.3, 1e-11);
+  EXPECT_NEAR(at_start(support::read_file(csv), "front_velocity"), -6 / 0.35, 1e-11);
+
+  std::string text = support::read_file(std::string(JOURDAIN_SOURCE_DIR) + "/tests/steppers/led_crank.toml");
+  const auto replace = [&text](const std::string& from, const std::string& to) {
+    const std::size_t at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    text.replace(at, from.size(), to);
+  };
+  replace("[[input]]", "[parameters]\nfirst = { value = 0.3, unit = \"rad\" }\n\n[[input]]");
+  replace("initial = 0.3", "initial = \"first\"");
+  const std::string path = folder.path() + "/crank.toml";
+  support::write_file(path, text);
+  expect(run(path, "first=1"), 0, "loops open by ");
+  const double sine = std::sin(1.0);
+  EXPECT_NEAR(at_start(support::read_file(csv), "bore"),
+              0.1 * std::cos(1.0) + std::sqrt(0.36 - 0.01 * sine * sine) - 0.6, 1e-12);
+
+  replace("motion = \"angle\"", "initial_position = \"first\"");
+  text.resize(text.find("[[output]]"));  // of the motion's drive
+  support::write_file(path, text + "[loops]\ntreatment = \"multipliers\"\n");
+  expect(run(path, "first=1"), 0, "loops open by ");
+  EXPECT_EQ(at_start(support::read_file(csv), "shaft"), 1);
+
+  replace("child = \"rod\"", "child = \"rod\"\ninitial_position = \"-first\"");
+  support::write_file(path, text + "[loops]\ntreatment = \"multipliers\"\n");
+  expect(run(path, "first=1"), 0, "note: the loops close with big_end = ");
+}
+
 TEST(LoopCommands, ParametersAtWhichLoopsAreNotProvenToCloseAreRefused) {
   const support::TemporaryFolder folder;
   for (const std::string treatment : {"partitioned", "explicit"}) {

@@ -6,14 +6,13 @@
 #include <cmath>
 #include <iterator>
 
-#include "dynamics/equations.hpp"
 #include "loops/closed_form/position_request.hpp"
 #include "loops/plan/elimination_order.hpp"
 #include "loops/plan/inertia.hpp"
 #include "loops/plan/partition.hpp"
 #include "loops/plan/scales.hpp"
 #include "loops/plan/sharing_rows.hpp"
-#include "loops/plan/start.hpp"
+#include "loops/plan/start_at.hpp"
 #include "loops/plan/states.hpp"
 #include "loops/plan/velocity_rows.hpp"
 #include "loops/regularity/regularity_proof.hpp"
@@ -95,6 +94,8 @@ class Planner {
     if (!start) return false;
     start_ = start->configuration;
     plan_.moved = start->moved;
+    plan_.kept_y = start->kept_y;
+    plan_.kept_z = start->kept_z;
     for (const long double entry : start_.y) plan_.y.push_back(static_cast<double>(entry));
     for (const long double entry : start->z) plan_.z.push_back(static_cast<double>(entry));
     return true;
@@ -377,31 +378,22 @@ class Planner {
   LoopPlan plan_;
 };
 
-ConstraintPrograms programs_of(const model::Mechanism& mechanism) {
-  dynamics::DerivationOptions options;
-  options.closures_only = options.for_derivatives = true;
-  return constraint_programs(mechanism, dynamics::derive_equations(mechanism, options)).front();
-}
-
 }  // namespace
 
 std::optional<LoopPlan> plan_loops(const model::Mechanism& mechanism, const ConstraintPrograms& constraints,
                                    support::Diagnostics& diagnostics) {
   if (mechanism.states.empty()) return Planner(mechanism, constraints, diagnostics).plan();
-  model::Mechanism held = without_states(mechanism);
+  const model::Mechanism held = without_states(mechanism);
   const bool led = model::motions_follow_states(mechanism);
-  if (led)
-    held.loop_options.treatment = LoopTreatment::kMultipliers;  // what is proven is so for ranges of time
-  std::optional<LoopPlan> plan = Planner(held, led ? programs_of(held) : constraints, diagnostics).plan();
-  if (!plan) return {};
-  add_states(mechanism, *plan);
-  if (led && plan->reason.empty()) plan->reason = "motions follow states";
+  std::optional<LoopPlan> plan =
+      Planner(held, led ? closure_programs(held) : constraints, diagnostics).plan();
+  if (plan) add_states(mechanism, *plan);
   return plan;
 }
 
 std::optional<LoopPlan> plan_loops(const model::Mechanism& mechanism, support::Diagnostics& diagnostics) {
   if (mechanism.loops.empty()) return {};
-  return plan_loops(mechanism, programs_of(mechanism), diagnostics);
+  return plan_loops(mechanism, closure_programs(mechanism), diagnostics);
 }
 
 }  // namespace jourdain::loops

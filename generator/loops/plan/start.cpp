@@ -9,6 +9,7 @@
 #include "loops/record/loop_plan.hpp"
 #include "model/coordinates.hpp"
 #include "model/joint_kinds.hpp"
+#include "model/loop_kinds.hpp"
 #include "reference/minimal.hpp"
 #include "support/matrix_index.hpp"
 
@@ -71,8 +72,8 @@ class StartSearch {
 
   std::optional<Start> find() {
     if (!find_positions() || !find_velocities()) return {};
-    record(initial_.y, start_.configuration.y, layout_.position_names, false);
-    record(initial_.z, start_.z, layout_.velocity_names, true);
+    start_.kept_y = record(initial_.y, start_.configuration.y, layout_.position_names, false);
+    start_.kept_z = record(initial_.z, start_.z, layout_.velocity_names, true);
     return start_;
   }
 
@@ -250,13 +251,18 @@ class StartSearch {
     return names.empty() ? "" : fmt::format(" with {} as given", fmt::join(names, ", "));
   }
 
-  void record(const Vector& before, const Vector& after, const std::vector<std::string>& names,
-              bool velocity) {
+  /// What has not moved.
+  std::vector<bool> record(const Vector& before, const Vector& after, const std::vector<std::string>& names,
+                           bool velocity) {
     constexpr long double kNoticeable = 1e-12L;
-    for (std::size_t i = 0; i < names.size(); ++i)
-      if (std::abs(after[at(i)] - before[at(i)]) > kNoticeable)
+    std::vector<bool> kept;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      kept.push_back(!(std::abs(after[at(i)] - before[at(i)]) > kNoticeable));
+      if (!kept.back())
         start_.moved.push_back(
             {names[i], static_cast<double>(before[at(i)]), static_cast<double>(after[at(i)]), velocity});
+    }
+    return kept;
   }
 
   const model::Mechanism& mechanism_;

@@ -17,6 +17,7 @@ struct Start {
   Configuration configuration;
   Vector z;
   std::vector<Moved> moved;
+  std::vector<bool> kept_y, kept_z;  ///< entries that start as the description says
 };
 
 /// Closes the loops from the initial values; the velocities `independent` of the tree and their coordinates

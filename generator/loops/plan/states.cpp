@@ -37,6 +37,8 @@ model::Mechanism without_states(model::Mechanism mechanism) {
     });
   };
   const std::vector<double> parameters = model::default_values(mechanism);
+  if (model::motions_follow_states(mechanism))  // what is proven is so for ranges of time
+    mechanism.loop_options.treatment = model::LoopTreatment::kMultipliers;
   for (model::Joint& joint : mechanism.joints)
     for (model::Coordinate& coordinate : joint.coordinates)
       if (coordinate.motion && !model::states_in(*coordinate.motion).empty())
@@ -50,9 +52,11 @@ model::Mechanism without_states(model::Mechanism mechanism) {
 
 void add_states(const model::Mechanism& mechanism, LoopPlan& plan) {
   const std::vector<double> parameters = model::default_values(mechanism);
+  if (plan.reason.empty() && model::motions_follow_states(mechanism)) plan.reason = "motions follow states";
   for (const model::StateVariable& state : mechanism.states) {
     if (plan.is_reduced()) plan.independent.push_back(plan.z.size());
     plan.z.push_back(state.initial.evaluate<double>(parameters));
+    plan.kept_z.push_back(true);
   }
 }
 

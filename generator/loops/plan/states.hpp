@@ -7,7 +7,7 @@
 namespace jourdain::loops {
 
 /// The mechanism with its states held where they start: they are no part of what loops hold together. Motions that
-/// follow them go on as they start.
+/// follow them go on as they start, and multipliers hold the loops.
 model::Mechanism without_states(model::Mechanism mechanism);
 
 /// States are independent and start as the description says.

@@ -30,6 +30,7 @@ struct LoopPlan {
   bool is_named = false;               ///< the description asks for it, or names the independent coordinates
   std::string reason;                  ///< why not a treatment that comes before it; a phrase
   std::vector<double> y, z;            ///< where the mechanism starts, all coordinates of the tree
+  std::vector<bool> kept_y, kept_z;    ///< of them those that start as the description says
   std::vector<Moved> moved;            ///< what closing the loops changed
   std::size_t freedom = 0;             ///< degrees of freedom
   std::vector<std::string> redundant;  ///< rows that follow from others, by name

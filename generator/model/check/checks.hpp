@@ -28,8 +28,8 @@ bool check_graph(const Mechanism& mechanism, support::Diagnostics& diagnostics);
 /// joints must have passed `check_graph`.
 void check_loops(const Mechanism& mechanism, support::Diagnostics& diagnostics);
 
-/// Motions that follow states have a velocity and an acceleration that are known and finite at the start; loops are held
-/// by multipliers then. Beside loops there are no external functions in motions or curves.
+/// Motions that follow states have a velocity and an acceleration that are known and finite at the start; multipliers
+/// hold loops then. Beside loops there are no external functions in motions or curves.
 void check_motions(const Mechanism& mechanism, support::Diagnostics& diagnostics);
 
 /// Inertia about the centre of mass positive semidefinite for each body, triangle inequality of the principal

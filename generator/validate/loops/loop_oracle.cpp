@@ -267,11 +267,18 @@ std::vector<ScaledReal> LoopOracle::mass_entries(const ir::Program& program) con
 
 std::vector<ScaledReal> LoopOracle::start(const ir::Program& program) const {
   const loops::LoopPlan& plan = scene_.plan;
+  const dynamics::Equations& tree = scene_.equations;
+  const dynamics::HighPrecision at(tree.statements, leaves_at(point_.exact));
   std::vector<ScaledReal> values;
   for (const ir::Output& output : program.outputs) {
     const auto i = static_cast<std::size_t>(output.row);
-    const std::size_t velocity = plan.is_reduced() && output.name == "z" ? plan.independent[i] : i;
-    values.push_back(output.name == "y" ? plan.y[i] : plan.z[velocity]);
+    const bool is_position = output.name == "y";
+    const std::size_t k = plan.is_reduced() && !is_position ? plan.independent[i] : i;
+    const kinematics::Ex& given = is_position ? tree.initial_position[k] : tree.initial_velocity[k];
+    const bool follows = is_position ? plan.kept_y[k] : plan.kept_z[k];
+    values.push_back(follows && !kinematics::is_number(given)
+                         ? at.value(given)
+                         : ScaledReal(is_position ? plan.y[k] : plan.z[k]));
   }
   return values;
 }
