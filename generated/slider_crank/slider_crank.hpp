@@ -163,6 +163,7 @@ inline constexpr int u_load_torque = 1;
 }  // namespace index
 
 /// The state that the model description starts from, at t = 0.
+/// It closes the loops at the parameters' default values; at others call close_loops.
 /// 0 operations (0 mul, 0 add and sub, 0 div), 0 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 State<Real> initial_state(const Model<Real>& model) noexcept;

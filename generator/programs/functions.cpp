@@ -26,7 +26,11 @@ std::vector<FunctionInfo> function_table() {
   return {
       {.id = FunctionId::kInitialState,
        .shape = Shape::kState,
-       .comment = "The state that the model description starts from, at t = 0."},
+       .comment = "The state that the model description starts from, at t = 0.",
+       .comment_reduced =
+           "It closes the loops at the parameters' default values; at others call close_loops.",
+       .comment_multipliers =
+           "It closes the loops at the parameters' default values; at others call project, several times."},
       {.id = FunctionId::kPositionRate,
        .shape = Shape::kRate,
        .result = "ydot",

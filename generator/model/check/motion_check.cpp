@@ -44,15 +44,17 @@ class MotionCheck {
           fmt::format("the motion of '{}' follows state '{}': loops are held by multipliers",
                       shown(coordinate.name), shown(mechanism_.states[*sources.first.begin()].name)),
           "other treatments need motions that are functions of t");
-    for (const std::size_t state : sources.first)
-      if (!follows(coordinate, state, true)) return;
+    for (const std::size_t i : sources.first) {
+      const StateVariable& state = mechanism_.states[i];
+      if (!follows(coordinate, i, true) || !calls(state.rate, "rate", state.name, state.where)) return;
+    }
     for (const std::size_t state : sources.second)
       if (!sources.first.contains(state) && !follows(coordinate, state, false)) return;
     start(coordinate);
   }
 
-  /// Loops are closed with numbers that follow from motions and curves: those of what stands in for a function of the
-  /// user say nothing.
+  /// Loops are closed with numbers that follow from motions, their velocities and curves: those of what stands in for a
+  /// function of the user say nothing.
   bool calls(const Expression& expression, const char* what, const std::string& name, SourceRange where) {
     if (mechanism_.loops.empty() || !expression.calls(support::Function::kCall)) return true;
     diagnostics_.error(where,
