@@ -9,7 +9,10 @@
 #include <complex>
 
 #include "agreement/shared_data.hpp"
+#include "compile/compile.hpp"
 #include "loops/closed_programs.hpp"
+#include "loops/plan/plan.hpp"
+#include "properties/consistent_state.hpp"
 #include "properties/random.hpp"
 #include "reference/descriptor.hpp"
 
@@ -354,6 +357,29 @@ frame = "ball"
 radius = 0.25
 plane = "table"
 )toml";
+
+/// M depends on a state that a motion follows: the whole compiler agrees with itself, and with the descriptor form.
+TEST(Rolling, ASteeringAngleThatStatesLeadIsInTheMassMatrix) {
+  const model::Mechanism mechanism =
+      read_model(std::string(JOURDAIN_SOURCE_DIR) + "/tests/loops/scenes/led_steering.toml");
+  support::Diagnostics diagnostics("led_steering", "");
+  CompileOptions options;
+  options.loops = loops::plan_loops(mechanism, diagnostics);
+  ASSERT_TRUE(options.loops) << diagnostics.format();
+  const CompiledModel compiled = compile(mechanism, options);
+  EXPECT_TRUE(compiled.verdict.accepted()) << compiled.verdict.failures.front();
+
+  const ClosedPrograms programs(mechanism);
+  const auto states = consistent_states(mechanism, 3, 4);
+  ASSERT_TRUE(states);
+  const reference::VectorX<long double> u = reference::VectorX<long double>::Constant(1, 0.4L);
+  for (const LoopState& state : *states) {
+    const auto expected =
+        reference::DescriptorReference<long double>(mechanism).solve(state.t, state.y, state.z, u);
+    EXPECT_LE(double((programs.accelerations(state, u) - expected.zdot).norm()),
+              1e-13 * (1 + double(expected.zdot.norm())));
+  }
+}
 
 /// A ball on a table that turns at W moves on circles with 2/7 of that: its centre's acceleration is 2/7 W k x v.
 TEST(Rolling, BallOnATurntableGoesInCircles) {

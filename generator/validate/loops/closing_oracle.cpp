@@ -26,8 +26,7 @@ struct Closed {
   const char* oracle = "";
 };
 
-ExactMatrix mass_matrix(const LoopScene& scene, State state) {
-  state[LeafKind::kVelocity].assign(scene.closure.velocity_count(), ScaledReal());
+ExactMatrix mass_matrix(const LoopScene& scene, const State& state) {
   const dynamics::HighPrecision exact(scene.equations.statements, leaves_at(state));
   ExactMatrix M(at(scene.equations.M.size()), at(scene.equations.M.size()));
   for (std::size_t i = 0; i < scene.equations.M.size(); ++i)
