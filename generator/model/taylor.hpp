@@ -52,7 +52,7 @@ struct Taylor {
   friend bool operator<(const Taylor& a, const Taylor& b) { return a.value < b.value; }
   friend Taylor value_of(support::Function function, const Taylor& a, const Taylor& b) {
     using support::Function;
-    const Scalar one = Scalar(1);
+    const auto one = Scalar(1);
     const support::FunctionFacts& facts = support::facts_of(function);
     if (facts.has_kinks) return support::value_with_kinks(function, a, b);
     const bool is_curve = facts.operands == 1 ||
