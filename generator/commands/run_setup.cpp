@@ -12,7 +12,7 @@
 #include "commands/input_table.hpp"
 #include "compile/start_check.hpp"
 #include "loops/plan/parameter_check.hpp"
-#include "loops/plan/start_at.hpp"
+#include "loops/plan/planned_start.hpp"
 #include "model/check/checks.hpp"
 #include "model/coordinates.hpp"
 #include "model/read/read.hpp"
@@ -172,7 +172,7 @@ std::vector<double> start_at_settings(const RunModel& model) {
     mechanism.parameters[i].value = model.parameters[i];
   support::Diagnostics diagnostics("--set", "");
   const loops::LoopPlan& plan = *model.loaded.plan();
-  const std::optional<loops::Start> start = loops::start_of(mechanism, plan, diagnostics);
+  const std::optional<loops::Start> start = loops::planned_start(mechanism, plan, diagnostics);
   if (!start) return {};  // what does not close is told where the run looks at its start
   std::vector<double> x(start->configuration.y.begin(), start->configuration.y.end());
   const Eigen::VectorXd& given = tree->first.z;
@@ -189,7 +189,8 @@ std::vector<double> start_at_settings(const RunModel& model) {
 void tell_moved_start(const RunModel& model, const studies::Flow<double>& flow) {
   const auto tree = start_of_tree(model);
   if (!tree) return;
-  constexpr double kNoticeable = 1e-9;
+  constexpr double kRoundings = 1e3;
+  const double noticeable = std::max(1e-9, kRoundings * flow.table().unit_roundoff);
   const model::CoordinateLayout layout = model::lay_out_coordinates(model.loaded.mechanism);
   const auto& [given, usual] = *tree;
   const std::vector<double> start = flow.start().x;
@@ -197,7 +198,7 @@ void tell_moved_start(const RunModel& model, const studies::Flow<double>& flow) 
                            const Eigen::VectorXd& before, std::size_t first, const char* rate) {
     for (std::size_t i = 0; i < names.size(); ++i) {
       const double asked = wanted[Eigen::Index(i)], found = start[first + i];
-      if (asked != before[Eigen::Index(i)] && std::fabs(found - asked) > kNoticeable * (1 + std::fabs(asked)))
+      if (asked != before[Eigen::Index(i)] && std::fabs(found - asked) > noticeable * (1 + std::fabs(asked)))
         fmt::print(stderr, "note: the loops close with {}{} = {:.10g} instead of {:.10g}\n", names[i], rate,
                    found, asked);
     }

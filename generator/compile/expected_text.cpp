@@ -37,7 +37,7 @@ readback::ExpectedKinematics expected_kinematics(const model::KinematicFunction&
                                                  const programs::SceneFacts& facts) {
   readback::ExpectedKinematics expected{function.name,
                                         model::takes_acceleration(function),
-                                        facts.motions_take_inputs && model::is_second_rate(function),
+                                        facts.motions_take_inputs && model::holds_accelerations(function),
                                         {}};
   for (const model::KinematicQuantity quantity : function.quantities)
     for (const model::KinematicArray& array : model::quantity_row(quantity).arrays) {

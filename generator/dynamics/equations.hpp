@@ -83,7 +83,7 @@ struct Equations {
   std::vector<Ex> residual;        ///< M ż − k̄ + q̄, with ż a leaf; only for derivatives
   std::vector<Ex> load;            ///< of q̄ all but gravity; only for derivatives
   std::vector<LoopClosure> closures;  ///< by loop
-  std::vector<LeadingState> leading;  ///< where there are loops: how those move on that time alone does not
+  std::vector<LeadingState> leading;  ///< where there are loops: g_t has a share of their rates
   Ex kinetic_energy;                  ///< J
   Ex potential_energy;                ///< J; gravity (zero at the inertial origin), springs, force elements
   std::vector<SampledState> samples;  ///< in the order of their entries

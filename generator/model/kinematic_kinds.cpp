@@ -128,9 +128,9 @@ bool takes_acceleration(const KinematicFunction& function) {
                      [](KinematicQuantity quantity) { return quantity_row(quantity).takes_acceleration; });
 }
 
-bool is_second_rate(const KinematicFunction& function) {
+bool holds_accelerations(const KinematicFunction& function) {
   return std::any_of(function.quantities.begin(), function.quantities.end(),
-                     [](KinematicQuantity quantity) { return quantity_row(quantity).is_second_rate; });
+                     [](KinematicQuantity quantity) { return quantity_row(quantity).holds_accelerations; });
 }
 
 std::variant<std::vector<KinematicQuantity>, KinematicError> parse_quantities(std::string_view text,

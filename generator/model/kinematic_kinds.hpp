@@ -28,7 +28,7 @@ struct QuantityRow {
   bool of_frame = true;   ///< otherwise of the whole mechanism
   bool has_axes = false;  ///< whether the axes that are chosen matter
   bool takes_acceleration = false;
-  bool is_second_rate = false;  ///< prescribed accelerations are in it
+  bool holds_accelerations = false;  ///< prescribed accelerations are in it
   std::span<const KinematicArray> arrays;
   std::string_view text;  ///< what it is, a sentence; {} is the frame's name
 };
@@ -49,7 +49,7 @@ std::optional<std::size_t> kinematic_function_named(const Mechanism& mechanism, 
 
 bool takes_acceleration(const KinematicFunction& function);
 /// Prescribed accelerations are in its results.
-bool is_second_rate(const KinematicFunction& function);
+bool holds_accelerations(const KinematicFunction& function);
 
 /// Why a text names no quantities.
 struct KinematicError {

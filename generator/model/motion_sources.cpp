@@ -43,4 +43,11 @@ bool motions_take_inputs(const Mechanism& mechanism) {
   });
 }
 
+Taylor<double> motion_at_start(const Expression& motion, const std::vector<StateVariable>& states,
+                               const std::vector<double>& parameters) {
+  return motion_taylor<double>(motion, states, parameters, [&](const Variable& v) {
+    return v.kind == Variable::Kind::kState ? states[v.index].initial.evaluate<double>(parameters) : 0.0;
+  });
+}
+
 }  // namespace jourdain::model

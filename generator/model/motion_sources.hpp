@@ -55,4 +55,8 @@ Taylor<Scalar> motion_taylor(const Expression& motion, const std::vector<StateVa
   });
 }
 
+/// At t = 0 with the initial values of the states, inputs zero.
+Taylor<double> motion_at_start(const Expression& motion, const std::vector<StateVariable>& states,
+                               const std::vector<double>& parameters);
+
 }  // namespace jourdain::model

@@ -48,14 +48,19 @@ bool forces_depend(const Mechanism& mechanism) {
 /// Outputs, given what positions and dynamics do.
 class OutputTime {
  public:
-  OutputTime(const Mechanism& mechanism, const TimeDependence& time) : mechanism_(mechanism), time_(time) {}
+  OutputTime(const Mechanism& mechanism, const TimeDependence& time)
+      : mechanism_(mechanism),
+        time_(time),
+        moves_(time.positions || std::ranges::any_of(mechanism.joints, [&](const Joint& joint) {
+                 return moves_with_time(mechanism, joint);
+               })) {}
 
   bool depends(const Output& output) const {
     switch (output_kind(output.kind).clock) {
       case OutputClock::kFrame:
         return frame_depends(output.frame);
       case OutputClock::kPositions:
-        return time_.positions;
+        return moves_;
       case OutputClock::kDynamics:
         return time_.dynamics;
       case OutputClock::kValue:
@@ -89,7 +94,7 @@ class OutputTime {
 
   /// Loops carry what moves with time to all coordinates that they determine.
   bool joint_depends(const Joint& joint) const {
-    return mechanism_.loops.empty() ? moves_with_time(mechanism_, joint) : time_.positions;
+    return mechanism_.loops.empty() ? moves_with_time(mechanism_, joint) : moves_;
   }
 
   bool frame_depends(FrameIndex frame) const {
@@ -106,6 +111,7 @@ class OutputTime {
 
   const Mechanism& mechanism_;
   const TimeDependence& time_;
+  bool moves_;  ///< some position, or velocity
 };
 
 }  // namespace

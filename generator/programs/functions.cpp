@@ -47,7 +47,7 @@ std::vector<FunctionInfo> function_table() {
        .comment_states = "States have rows of a unit matrix."},
       {.id = FunctionId::kKBar,
        .result = "k",
-       .is_second_rate = true,
+       .holds_accelerations = true,
        .comment = "Inertia terms k_bar: Coriolis, centrifugal and those of prescribed motion; no gravity."},
       {.id = FunctionId::kQBar,
        .result = "q",
@@ -65,7 +65,7 @@ std::vector<FunctionInfo> function_table() {
        .comment_states = "Entries of states are their rates."},
       {.id = FunctionId::kInverseDynamics,
        .result = "tau",
-       .is_second_rate = true,
+       .holds_accelerations = true,
        .takes_acceleration = true,
        .comment = "Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given "
                   "accelerations\n`zdot`, N m or N.",
@@ -271,7 +271,7 @@ std::vector<std::string> default_functions() {
 }
 
 bool takes_input(const FunctionInfo& function, const SceneFacts& scene) {
-  return function.takes_input || (function.is_second_rate && scene.motions_take_inputs);
+  return function.takes_input || (function.holds_accelerations && scene.motions_take_inputs);
 }
 
 std::string comment_of(const FunctionInfo& function, const SceneFacts& scene) {
@@ -280,7 +280,7 @@ std::string comment_of(const FunctionInfo& function, const SceneFacts& scene) {
     if (!remark.empty()) comment += "\n" + remark;
   };
   if (!scene.states.empty()) add(function.comment_states);
-  if (function.is_second_rate && scene.motions_take_inputs)
+  if (function.holds_accelerations && scene.motions_take_inputs)
     add("Inputs push nothing here: prescribed accelerations depend on them.");
   if (!scene.constraints.empty())
     add(scene.is_reduced ? function.comment_reduced : function.comment_multipliers);
@@ -340,7 +340,7 @@ std::vector<FunctionInfo> kinematic_functions(const SceneFacts& scene) {
     for (const model::KinematicQuantity quantity : scene.kinematics[k].quantities) {
       const model::QuantityRow& row = model::quantity_row(quantity);
       info.takes_acceleration = info.takes_acceleration || row.takes_acceleration;
-      info.is_second_rate = info.is_second_rate || row.is_second_rate;
+      info.holds_accelerations = info.holds_accelerations || row.holds_accelerations;
       for (const model::KinematicArray& array : row.arrays) info.arrays.push_back(array_result(array));
     }
     info.takes_input = takes_input(info, scene);

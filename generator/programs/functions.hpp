@@ -49,7 +49,7 @@ struct FunctionInfo {
   Shape shape = Shape::kVector;
   std::string result = {};  ///< name of the array, and of the program's outputs
   bool takes_input = false;
-  bool is_second_rate = false;                ///< takes inputs where prescribed accelerations depend on them
+  bool holds_accelerations = false;           ///< takes inputs where prescribed accelerations depend on them
   bool takes_acceleration = false;            ///< Real (&zdot)[nz]
   std::vector<std::string> needs = {};        ///< functions that its body calls
   std::string comment = {};                   ///< doc comment, lines separated by '\n'

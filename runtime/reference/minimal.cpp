@@ -110,7 +110,7 @@ typename Reference<Scalar>::Forces Reference<Scalar>::forces(const State<Scalar>
                                                              const VectorX<Scalar>& u) const {
   JD_CHECK(u.size() == Eigen::Index(input_count()), "{} values for {} inputs", u.size(), input_count());
   const State<Scalar> whole{state.t, state.y, state.z, u};
-  Forces at{whole, u, body_frames(whole), {}, VectorX<Scalar>(column_count())};
+  Forces at{whole, body_frames(whole), {}, VectorX<Scalar>(column_count())};
   for (const model::Frame& frame : mechanism_.frames) at.frames.push_back(placed(at.bodies, frame));
   at.rates.head(state.z.size()) = state.z;
   for (std::size_t i = 0; i < prescribed_.size(); ++i)

@@ -58,7 +58,8 @@ void Reference<Scalar>::add(const Effect& effect, const Forces& at, Terms<Scalar
 template <class Scalar>
 auto Reference<Scalar>::effect(const model::Actuator& actuator, const Forces& at) const -> Effect {
   const auto input = Eigen::Index(&actuator - mechanism_.actuators.data());
-  const Bounded<Scalar> push = Bounded<Scalar>(value(actuator.gear_ratio)) * Bounded<Scalar>(at.u[input]);
+  const Bounded<Scalar> push =
+      Bounded<Scalar>(value(actuator.gear_ratio)) * Bounded<Scalar>(at.state.u[input]);
   return {.on_columns = {{column_of(actuator.joint.value, actuator.coordinate), push}}};
 }
 

@@ -9,7 +9,6 @@ namespace jourdain::reference {
 template <class Scalar>
 struct Reference<Scalar>::Forces {
   const State<Scalar> state;  // with its inputs
-  const VectorX<Scalar>& u;
   std::vector<FrameMotion> bodies, frames;
   VectorX<Scalar> rates;  // of all columns, prescribed ones too
   Scalar h = 0;           // of the step that begins; of samples
@@ -34,7 +33,7 @@ Bounded<Scalar> Reference<Scalar>::general(const model::Expression& expression, 
       case Kind::kVelocity:
         return coordinate(v.index, v.component, at.state).first;
       case Kind::kInput:
-        return at.u[Eigen::Index(v.index)];
+        return at.state.u[Eigen::Index(v.index)];
       case Kind::kStepLength:
         return at.h;
       case Kind::kState:

@@ -93,5 +93,22 @@ TEST(TimeDependence, OfOutputsFollowsWhatTheyAreMadeOf) {
   EXPECT_TRUE(time_of(kMotion, "[[output]]\nname = \"o\"\nkind = \"kinetic_energy\"\n").outputs);
 }
 
+/// Positions follow a state and not t; velocities follow its rate.
+TEST(TimeDependence, OfMotionsThatFollowStatesIsThatOfTheirRates) {
+  const auto led = [](const std::string& rate, const std::string& more) {
+    return time_of("motion = \"p\"\n", "[[state]]\nname = \"p\"\nrate = \"" + rate + "\"\n" + more);
+  };
+  const std::string energy = "[[output]]\nname = \"o\"\nkind = \"kinetic_energy\"\n";
+  for (const std::string& output : {expression("slide.rate"), of_frame("velocity", "on_cart"), energy}) {
+    const TimeDependence moving = led("sin(t)", output), steady = led("2", output);
+    EXPECT_TRUE(moving.outputs && moving.dynamics && moving.drift && !moving.positions) << output;
+    EXPECT_TRUE(!steady.outputs && !steady.dynamics && steady.drift && !steady.positions) << output;
+  }
+  EXPECT_FALSE(led("sin(t)", of_frame("velocity", "on_bob")).outputs);
+  const std::string bound = "[[constraint]]\nname = \"c\"\nvelocity = \"hinge.rate - 1\"\n";
+  EXPECT_TRUE(led("sin(t)", bound + expression("hinge.rate")).outputs);
+  EXPECT_FALSE(led("2", bound + expression("hinge.rate")).outputs);
+}
+
 }  // namespace
 }  // namespace jourdain::model

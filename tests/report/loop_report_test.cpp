@@ -45,6 +45,21 @@ TEST(LoopReport, ErrorsComeFromTheirPartsAndLoopsStayClosed) {
     EXPECT_NE(result.output.find(part), std::string::npos) << part << "\n" << result.output;
 }
 
+/// Absolute coordinates start with the states that the scene has.
+TEST(LoopReport, FormsInOtherCoordinatesKnowStates) {
+  const support::TemporaryFolder folder;
+  const std::string out = folder.path() + "/report";
+  const support::ProcessResult result = support::run_process(
+      {JOURDAIN_BINARY, "report", std::string(JOURDAIN_SOURCE_DIR) + "/tests/steppers/led_crank.toml",
+       "--duration", "0.5s", "--longest-step", "8ms", "--halvings", "4", "--methods", "rk4", "--effort", "1",
+       "--constant-input", "20", "--no-plots", "-o", out});
+  ASSERT_EQ(result.status, 0) << result.output;
+  const json report = json::parse(support::read_file(out + "/report.json"));
+  ASSERT_EQ(report["first_kind"].size(), 2u);
+  for (const json& form : report["first_kind"])
+    EXPECT_LT(form["points"].back()["position_error_m"].get<double>(), 1e-4) << form["form"];
+}
+
 #endif
 
 }  // namespace

@@ -12,7 +12,7 @@
 #include "loops/plan/partition.hpp"
 #include "loops/plan/scales.hpp"
 #include "loops/plan/sharing_rows.hpp"
-#include "loops/plan/start_at.hpp"
+#include "loops/plan/start.hpp"
 #include "loops/plan/states.hpp"
 #include "loops/plan/velocity_rows.hpp"
 #include "loops/regularity/regularity_proof.hpp"

@@ -15,12 +15,9 @@ namespace {
 model::Expression as_it_starts(const model::Expression& motion,
                                const std::vector<model::StateVariable>& states,
                                const std::vector<double>& parameters) {
-  using model::Variable;
-  const auto at = model::motion_taylor<double>(motion, states, parameters, [&](const Variable& v) {
-    return v.kind == Variable::Kind::kState ? states[v.index].initial.evaluate<double>(parameters) : 0.0;
-  });
+  const model::Taylor<double> at = model::motion_at_start(motion, states, parameters);
   const bool rests = at.first == 0 && at.second == 0;
-  const model::Expression t = model::Expression::variable({Variable::Kind::kTime});
+  const model::Expression t = model::Expression::variable({model::Variable::Kind::kTime});
   return model::plus(at.value,
                      model::times(t, model::plus(at.first, model::times(rests ? 0.5 : at.second / 2, t))));
 }

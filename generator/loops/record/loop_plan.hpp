@@ -65,6 +65,8 @@ struct LoopPlan {
   const ProvenBox* proven() const { return closed_form ? &closed_form->box : proof ? &proof->box : nullptr; }
   /// Rows that multipliers are solved for, in order: `rows` and those that share.
   std::vector<std::size_t> solved_rows() const;
+  /// How far rows that disagree may be open on the branch that is meant: a hundred times what was seen.
+  double tolerated_disagreement() const { return 100 * disagreement; }
   bool is_reduced() const { return treatment != model::LoopTreatment::kMultipliers; }
   /// Below it a state's `regularity` says that what is solved for is singular, or nearly so. Multipliers that
   /// were asked for pass singular configurations straight on: 0.

@@ -296,4 +296,10 @@ std::vector<ConstraintPrograms> constraint_programs(const model::Mechanism& mech
   return list;
 }
 
+ConstraintPrograms closure_programs(const model::Mechanism& mechanism) {
+  dynamics::DerivationOptions options;
+  options.closures_only = options.for_derivatives = true;
+  return constraint_programs(mechanism, dynamics::derive_equations(mechanism, options)).front();
+}
+
 }  // namespace jourdain::loops

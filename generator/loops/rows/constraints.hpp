@@ -27,4 +27,7 @@ struct ConstraintPrograms {
 std::vector<ConstraintPrograms> constraint_programs(const model::Mechanism& mechanism,
                                                     const dynamics::Equations& equations);
 
+/// Those with the fewest operations, of equations that are derived for them alone.
+ConstraintPrograms closure_programs(const model::Mechanism& mechanism);
+
 }  // namespace jourdain::loops

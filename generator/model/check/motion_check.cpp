@@ -100,11 +100,7 @@ class MotionCheck {
   }
 
   void start(const Coordinate& coordinate) {
-    const Taylor<double> at =
-        motion_taylor<double>(*coordinate.motion, mechanism_.states, parameters_, [this](const Variable& v) {
-          return v.kind == Kind::kState ? mechanism_.states[v.index].initial.evaluate<double>(parameters_)
-                                        : 0.0;
-        });
+    const Taylor<double> at = motion_at_start(*coordinate.motion, mechanism_.states, parameters_);
     const char* const what = !std::isfinite(at.value)    ? "position"
                              : !std::isfinite(at.first)  ? "velocity"
                              : !std::isfinite(at.second) ? "acceleration"

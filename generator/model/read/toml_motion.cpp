@@ -1,5 +1,6 @@
 // What prescribed motions may name: time and states, of which those of this file are declared later.
-#include "model/read/keys.hpp"
+#include <variant>
+
 #include "model/read/toml_sections.hpp"
 
 namespace jourdain::model {

@@ -191,8 +191,7 @@ Verdict validate_closed(const model::Mechanism& mechanism, const dynamics::Equat
   const loops::ConstraintPrograms programs = loops::constraint_programs(mechanism, closures).front();
   const std::vector<double> parameters = model::default_values(mechanism);
   loops::NumericClosure numeric(mechanism, programs, parameters);
-  constexpr long double kBranch = 100;  // times what was seen: further open there is another branch
-  numeric.disregard(plan.disagreeing, kBranch * plan.disagreement);
+  numeric.disregard(plan.disagreeing, plan.tolerated_disagreement());
   const ExactClosure closure(mechanism, closures, plan);
   const LoopScene scene{mechanism, equations, plan, closure};
   Agreement agreement;

@@ -5,17 +5,13 @@
 
 #include "loops/plan/start.hpp"
 #include "loops/record/loop_plan.hpp"
-#include "loops/rows/constraints.hpp"
 #include "support/diagnostics.hpp"
 
 namespace jourdain::loops {
 
-/// The constraints of the mechanism alone.
-ConstraintPrograms closure_programs(const model::Mechanism& mechanism);
-
 /// Where the mechanism starts at the values that its parameters have now, states left out, with the independent
-/// coordinates that it was planned with. Nothing after diagnostics.
-std::optional<Start> start_of(const model::Mechanism& mechanism, const LoopPlan& plan,
-                              support::Diagnostics& diagnostics);
+/// coordinates of `plan`. Nothing after diagnostics.
+std::optional<Start> planned_start(const model::Mechanism& mechanism, const LoopPlan& plan,
+                                   support::Diagnostics& diagnostics);
 
 }  // namespace jourdain::loops
