@@ -80,6 +80,7 @@ class EquationPrinter {
       case ir::LeafKind::kAcceleration:
       case ir::LeafKind::kMultiplier:
       case ir::LeafKind::kStepLength:
+      case ir::LeafKind::kHeld:
         break;
     }
     JD_CHECK(false, "leaf {}", ir::leaf_name(node.leaf));

@@ -92,6 +92,8 @@ void describe_loops(const model::Mechanism& mechanism, const loops::LoopPlan& pl
   text.least_regularity = plan.least_regularity();
   text.greatest_opening = plan.greatest_opening();
   text.opening_is_proven = plan.proof.has_value();
+  text.searches = std::any_of(mechanism.loops.begin(), mechanism.loops.end(),
+                              [](const model::Loop& loop) { return !loop.height.is_zero(); });
   if (plan.proven()) text.proven = *plan.proven();
 }
 

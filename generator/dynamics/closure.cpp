@@ -6,6 +6,7 @@
 #include "dynamics/free_root.hpp"
 #include "dynamics/moving_vector.hpp"
 #include "dynamics/points.hpp"
+#include "dynamics/rolling_ground.hpp"
 #include "kinematics/numbers.hpp"
 #include "model/loop_kinds.hpp"
 
@@ -246,6 +247,7 @@ class Closure {
   }
 
   void roll(const Vector3& n, const Axes& from_axes) {
+    if (!loop_.height.is_zero()) return roll_on_ground(n, from_axes);
     const auto [depth, way] = loop_.type == LoopType::kRollingBall    ? of_ball(n)
                               : loop_.type == LoopType::kRollingWheel ? of_wheel(n)
                                                                       : of_ellipsoid(n);
@@ -254,6 +256,28 @@ class Closure {
     closure_.gradients.push_back(touching(n, lever));
     for (std::size_t k = 0; k < 2; ++k)
       hold_back(a_.direction(from_axes[k]).value, lever, fmt::format("{}s{}", loop_.name, k));
+  }
+
+  void roll_on_ground(const Vector3& n, const Axes& from_axes) {
+    kinematics::Statements& statements = scene_.statements;
+    const std::string name = loop_.name + "g";
+    const Vector3 axes[3] = {a_.direction(from_axes[0]).value, a_.direction(from_axes[1]).value, n};
+    const auto seen = [&](const Vector3& v) {
+      return statements.bind(name + "p", Vector3{dot(axes[0], v), dot(axes[1], v), dot(axes[2], v)});
+    };
+    const auto back = [&](const Vector3& v) {
+      return statements.bind(name + "v", v[0] * axes[0] + v[1] * axes[1] + v[2] * axes[2]);
+    };
+    const Vector3 centre = seen(difference_.value);
+    const RoundShape round =
+        round_shape(scene_, loop_, [&](const Vector3& v) { return seen(b_.direction(v).value); });
+    const GroundTouch touch = touch_ground(scene_, loop_, from_axes, centre, round);
+    closure_.searches.push_back(touch.search);
+    const Vector3 lever = back(touch.lever);
+    closure_.rows.push_back(touch.height);
+    closure_.gradients.push_back(touching(back(touch.normal), lever));
+    for (std::size_t k = 0; k < 2; ++k)
+      hold_back(back(touch.along[k]), lever, fmt::format("{}s{}", loop_.name, k));
   }
 
   /// Of the velocity along `e` of the point of the body of `to` at `lever` from its origin, relative to the body of

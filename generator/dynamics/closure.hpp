@@ -1,6 +1,7 @@
 // The constraint functions g(y, t) of the loop joints, row by row as model::Loop defines them.
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <vector>
@@ -24,6 +25,17 @@ struct Span {
   Ex length;
 };
 
+/// A point of a plane that is looked for, where two numbers are zero. Rows have its coordinates as numbers that are
+/// held: it moves as the two numbers stay at zero, and where g is zero it does not change with them.
+struct Search {
+  std::array<Ex, 2> found;                   ///< held, m
+  std::array<Ex, 2> misfit;                  ///< of the held ones
+  std::array<std::array<Ex, 2>, 2> inverse;  ///< −(∂misfit/∂found)⁻¹
+  Ex missed;                                 ///< square of the last step of the search, m²
+  /// Of −∂misfit/∂found: both positive where the point is nearer than those around it.
+  Ex determinant, trace;
+};
+
 /// Of one loop.
 struct LoopClosure {
   std::vector<Ex>
@@ -36,6 +48,8 @@ struct LoopClosure {
   std::vector<std::map<std::size_t, Ex>> slopes;
   std::vector<Ex> time_slopes, rates, biases;
   std::optional<Span> span;  ///< of the one row of a rod
+  /// Points that are looked for in it.
+  std::vector<Search> searches;
   /// Of rows that bind velocities alone, whose g is 0: what is kept at zero, linear in z.
   std::map<std::size_t, Ex> velocities;
 };

@@ -149,25 +149,59 @@ ClosureJacobian closure_jacobian(const Equations& closures, const model::Tangent
   return jacobian;
 }
 
+namespace {
+
+/// Rates of what is held, by its number: −(∂misfit/∂found)⁻¹ times that of the misfit where it is held.
+std::map<std::size_t, ScaledReal> found_rates(const Equations& closures, const MovingPrecision& held) {
+  std::map<std::size_t, ScaledReal> rates;
+  for (const LoopClosure& loop : closures.closures)
+    for (const Search& search : loop.searches)
+      for (const auto& inverse : search.inverse) {
+        ScaledReal& rate = rates[rates.size()];
+        for (std::size_t k = 0; k < 2; ++k)
+          rate += held.value(inverse[k]).value * held.value(search.misfit[k]).first;
+      }
+  return rates;
+}
+
+}  // namespace
+
 ClosureMotion closure_motion(const Equations& closures, const model::Tangent& tangent,
                              const std::vector<ScaledReal>& z, const LeafValue& leaf) {
   const std::vector<MovingReal> y = moving_positions(tangent, z, leaf);
   const std::map<std::size_t, MovingReal> states = leading_states(closures, leaf);
-  const MovingPrecision at(closures.statements, [&](LeafKind kind, std::size_t i) -> MovingReal {
+  const MovingPrecision::LeafValue moving = [&](LeafKind kind, std::size_t i) -> MovingReal {
     if (kind == LeafKind::kPosition) return y[i];
     if (kind == LeafKind::kTime) return {leaf(kind, i), 1};
     const auto state = states.find(i);
     if (kind == LeafKind::kVelocity && state != states.end()) return state->second;
     return {kind == LeafKind::kVelocity ? z[i] : leaf(kind, i)};
-  });
+  };
+  const MovingPrecision held(closures.statements, moving);
+  const std::map<std::size_t, ScaledReal> rates = found_rates(closures, held);
+  const MovingPrecision::HeldValue found = [&](std::size_t i, const MovingReal& at) -> MovingReal {
+    return {at.value, rates.at(i)};
+  };
+  const std::optional<MovingPrecision> both =
+      rates.empty() ? std::nullopt
+                    : std::optional<MovingPrecision>(std::in_place, closures.statements, moving, found);
   ClosureMotion motion;
-  for (const MovingReal& row : rows_of(closures, at)) {
+  for (const MovingReal& row : rows_of(closures, held)) {
     motion.g.push_back(row.value);
     motion.rate.push_back(row.first);
     motion.gamma.push_back(row.second);
   }
+  if (both) {
+    // With the second derivatives A of what moves where points are held, C the other way round and B of both,
+    // A + C + 2 X, that of G z is A + X.
+    const MovingPrecision resting(
+        closures.statements, [&](LeafKind kind, std::size_t i) { return at_rest(moving(kind, i)); }, found);
+    const std::vector<MovingReal> B = rows_of(closures, *both), C = rows_of(closures, resting);
+    for (std::size_t r = 0; r < B.size(); ++r)
+      motion.gamma[r] = (motion.gamma[r] + B[r].second - C[r].second) / ScaledReal(2);
+  }
   for_each_velocity(closures, [&](std::size_t row, const Ex& velocity) {
-    const MovingReal value = at.value(velocity);
+    const MovingReal value = (both ? *both : held).value(velocity);
     motion.rate[row] = value.value;
     motion.gamma[row] = value.first;
   });
@@ -176,6 +210,18 @@ ClosureMotion closure_motion(const Equations& closures, const model::Tangent& ta
 
 std::vector<ScaledReal> closure_values(const Equations& closures, const LeafValue& leaf) {
   return rows_of(closures, HighPrecision(closures.statements, leaf));
+}
+
+ScaledReal closure_misses(const Equations& closures, const LeafValue& leaf) {
+  const HighPrecision at(closures.statements, leaf);
+  ScaledReal sum;
+  for (const LoopClosure& loop : closures.closures)
+    for (const Search& search : loop.searches) {
+      sum += at.value(search.missed);
+      for (const Ex& positive : {search.determinant, search.trace})
+        if (at.value(positive) < ScaledReal(0)) sum += ScaledReal(1);
+    }
+  return sum;
 }
 
 }  // namespace jourdain::dynamics

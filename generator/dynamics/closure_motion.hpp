@@ -19,7 +19,8 @@ struct ClosureJacobian {
 ClosureJacobian closure_jacobian(const Equations& closures, const model::Tangent& tangent,
                                  std::size_t velocity_count, const LeafValue& leaf);
 
-/// g, ġ = G z + g_t and γ = g̈ − G ż at one state.
+/// g, ġ = G z + g_t and γ = g̈ − G ż at one state. Points that are looked for are held for ġ, and move in γ as
+/// d(G z + g_t)/dt has it.
 struct ClosureMotion {
   std::vector<ScaledReal> g, rate, gamma;
 };
@@ -30,5 +31,8 @@ ClosureMotion closure_motion(const Equations& closures, const model::Tangent& ta
 
 /// g alone.
 std::vector<ScaledReal> closure_values(const Equations& closures, const LeafValue& leaf);
+
+/// Sum of Search::missed, m², and of 1 for each determinant and trace that is negative.
+ScaledReal closure_misses(const Equations& closures, const LeafValue& leaf);
 
 }  // namespace jourdain::dynamics

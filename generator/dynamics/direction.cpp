@@ -51,6 +51,7 @@ SlopePrecision moved_along(const ExactDirection& direction, const kinematics::St
       case LeafKind::kAcceleration:
       case LeafKind::kMultiplier:
       case LeafKind::kStepLength:
+      case LeafKind::kHeld:
         break;
     }
     return {value};

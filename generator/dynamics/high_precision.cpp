@@ -120,10 +120,17 @@ GradientReal value_of(support::Function function, const GradientReal& a, const G
 }
 
 template <class Number>
-Evaluation<Number>::Evaluation(const kinematics::Statements& statements, const LeafValue& leaf) {
+Evaluation<Number>::Evaluation(const kinematics::Statements& statements, const LeafValue& leaf,
+                               const HeldValue& held) {
   for (const kinematics::Leaf& l : statements.leaves()) values_[l.symbol] = leaf(l.kind, l.index);
-  for (const kinematics::Statement& statement : statements.all())
-    values_[statement.name] = value(statement.value);
+  for (const kinematics::Statement& statement : statements.all()) {
+    Number number = value(statement.value);
+    if (statement.held) {
+      number = at_rest(number);
+      if (held) number = held(*statement.held, number);
+    }
+    values_[statement.name] = number;
+  }
 }
 
 template <class Number>

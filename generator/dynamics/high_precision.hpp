@@ -57,13 +57,22 @@ struct GradientReal {
   friend GradientReal value_of(support::Function function, const GradientReal& a, const GradientReal& b);
 };
 
+/// A number as a constant.
+inline ScaledReal at_rest(const ScaledReal& number) { return number; }
+inline MovingReal at_rest(const MovingReal& number) { return {number.value}; }
+inline SlopeReal at_rest(const SlopeReal& number) { return {number.value}; }
+inline GradientReal at_rest(const GradientReal& number) { return {number.value}; }
+
 /// The statements evaluated at one state. No lowering, no pass, no program takes part.
 template <class Number>
 class Evaluation {
  public:
   using LeafValue = std::function<Number(kinematics::LeafKind, std::size_t index)>;
 
-  Evaluation(const kinematics::Statements& statements, const LeafValue& leaf);
+  /// What Statements::hold binds is at rest, or as `held` has it.
+  using HeldValue = std::function<Number(std::size_t index, const Number& at_rest)>;
+
+  Evaluation(const kinematics::Statements& statements, const LeafValue& leaf, const HeldValue& held = {});
 
   /// Value of a leaf, a bound name, a number or an expression of these.
   Number value(const kinematics::Ex& expression) const;

@@ -29,6 +29,7 @@ struct ModelText {
   double least_regularity = 0,
          greatest_opening = 0;     ///< limits of State's members of these names; with loops
   bool opening_is_proven = false;  ///< its limit follows from a proof
+  bool searches = false;           ///< points that touch ground of a height
   loops::ProvenBox proven;  ///< for which positions and parameters the closing of loops is; empty: nothing is
   std::vector<std::string> assumptions;  ///< sentences
   std::vector<std::string> left_out;     ///< sentences

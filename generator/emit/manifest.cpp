@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 
+#include "emit/called_functions.hpp"
 #include "emit/unique_names.hpp"
 #include "emit/what_depends.hpp"
 
@@ -48,6 +49,14 @@ std::string ranges_object(const std::vector<loops::ProvenRange>& ranges,
 std::string number_array(std::span<const double> values) {
   std::string text;
   for (const double value : values) text += fmt::format("{}{}", text.empty() ? "" : ", ", value);
+  return "[" + text + "]";
+}
+
+std::string called_array(const std::vector<support::CalledFunction>& called) {
+  std::string text;
+  for (const support::CalledFunction& function : called)
+    text += fmt::format(R"({}{{"name": "{}", "arguments": {}}})", text.empty() ? "" : ", ", function.member(),
+                        string_array(function.arguments));
   return "[" + text + "]";
 }
 
@@ -127,6 +136,7 @@ std::string manifest(const ModelText& model, const std::vector<programs::Functio
   if (!ranges.empty()) field("parameter_ranges", "{" + ranges + "}");
   field("variables", variables_array(model, module));
   field("functions", string_array(names));
+  if (const auto called = called_in(module); !called.empty()) field("user_functions", called_array(called));
   text += "  \"operations\": {\n";
   text += fmt::format("    \"model\": {}", operations_object(ir::count_operations(module.constants)));
   for (const ir::Program& program : module.functions)

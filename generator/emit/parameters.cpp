@@ -32,6 +32,7 @@ Expression place_of(ir::LeafKind kind, std::size_t index) {
     case ir::LeafKind::kParameter:
     case ir::LeafKind::kConstant:
     case ir::LeafKind::kMultiplier:
+    case ir::LeafKind::kHeld:
       break;
   }
   JD_CHECK(false, "a {} is no argument", ir::leaf_name(kind));

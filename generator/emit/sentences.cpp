@@ -71,6 +71,14 @@ std::string opening_sentence(const ModelText& model, const std::string& limits) 
         "Up to {}greatest_opening they are proven to end on the branch (see above), where no step errs by "
         "more than the distance to other solutions. Beyond it nothing is: the step was too long.",
         limits);
+  if (model.searches)
+    return fmt::format(
+        "Squares of the distance that the last closing moved the positions, rad or m, and of the last steps "
+        "towards "
+        "points that touch the ground, m. Beyond {}greatest_opening loops may be left open, or these points "
+        "missed: the "
+        "step was too long, or the ground is more curved than what rolls on it.",
+        limits);
   return fmt::format(
       "Square of the distance that the last closing moved the positions, rad or m. Beyond {}greatest_opening "
       "loops may be left open: the step was too long.",

@@ -63,6 +63,7 @@ class Reader {
       case LeafKind::kAcceleration:
       case LeafKind::kMultiplier:
       case LeafKind::kStepLength:
+      case LeafKind::kHeld:
         break;
     }
   }

@@ -76,6 +76,8 @@ const char* leaf_name(LeafKind kind) {
       return "t";
     case LeafKind::kStepLength:
       return "h";
+    case LeafKind::kHeld:
+      return "held";
   }
   return "";
 }

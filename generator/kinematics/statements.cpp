@@ -17,7 +17,12 @@ Ex Statements::leaf(LeafKind kind, std::size_t index, const std::string& name) {
 
 Ex Statements::bind(const std::string& name, const Ex& value) {
   if (is_number(value) || is_a<GiNaC::symbol>(value) || is_a<GiNaC::symbol>(-value)) return value;
-  statements_.push_back({GiNaC::realsymbol(name), value});
+  statements_.push_back({GiNaC::realsymbol(name), value, {}});
+  return statements_.back().name;
+}
+
+Ex Statements::hold(const std::string& name, const Ex& value) {
+  statements_.push_back({GiNaC::realsymbol(name), value, held_++});
   return statements_.back().name;
 }
 

@@ -4,6 +4,7 @@
 
 #include <ginac/ginac.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,8 @@ struct Leaf {
 struct Statement {
   GiNaC::symbol name;
   Ex value;  ///< of leaves, numbers and earlier names
+  /// Its number among those that derivatives take for leaves, whose changes are given apart.
+  std::optional<std::size_t> held = {};
 };
 
 /// Leaves and statements in order of declaration. Numbers are exact rationals or floats of `kDigits` digits.
@@ -33,6 +36,8 @@ class Statements {
 
   /// Binds `value` to a new symbol and returns that; numbers, symbols and negated symbols come back as they are.
   Ex bind(const std::string& name, const Ex& value);
+  /// Binds `value` to a new symbol whatever it is, which derivatives take for a leaf.
+  Ex hold(const std::string& name, const Ex& value);
   Vector3 bind(const std::string& name, const Vector3& value);
   /// Binds a matrix row by row.
   Matrix3 bind(const std::string& name, const Matrix3& value);
@@ -45,6 +50,7 @@ class Statements {
  private:
   std::vector<Leaf> leaves_;
   std::vector<Statement> statements_;
+  std::size_t held_ = 0;
 };
 
 bool is_number(const Ex& value);

@@ -57,10 +57,14 @@ struct Operand {
 
 class Lowering {
  public:
-  Lowering(const kinematics::Statements& statements, const std::vector<Target>& targets)
+  Lowering(const kinematics::Statements& statements, const std::vector<Target>& targets, Held held)
       : statements_(statements) {
-    for (const auto& leaf : statements.leaves()) leaves_[leaf.symbol] = &leaf;
-    for (const auto& statement : statements.all()) bound_[statement.name] = &statement.value;
+    for (const auto& leaf : statements.leaves()) leaves_[leaf.symbol] = leaf;
+    for (const auto& statement : statements.all())
+      if (statement.held && held == Held::kLeaves)
+        leaves_[statement.name] = {kinematics::LeafKind::kHeld, *statement.held, statement.name};
+      else
+        bound_[statement.name] = &statement.value;
     for (const Target& target : targets) need(target.value);
   }
 
@@ -95,7 +99,7 @@ class Lowering {
     if (const auto it = lowered_.find(s); it != lowered_.end()) return it->second;
     const auto it = leaves_.find(s);
     JD_CHECK(it != leaves_.end(), "unbound symbol {}", s.get_name());
-    return builder_.leaf(it->second->kind, it->second->index);
+    return builder_.leaf(it->second.kind, it->second.index);
   }
 
   Key key(const Ex& e) {
@@ -127,7 +131,7 @@ class Lowering {
   /// Not through `symbol`: that would number leaves in GiNaC's order.
   Key symbol_key(const GiNaC::symbol& s) const {
     const auto leaf = leaves_.find(s);
-    if (leaf != leaves_.end()) return {fmt::format("{}{:08}", int(leaf->second->kind), leaf->second->index)};
+    if (leaf != leaves_.end()) return {fmt::format("{}{:08}", int(leaf->second.kind), leaf->second.index)};
     const Signed value = lowered_.at(s);
     return {fmt::format("v{:08}", value.value.value), value.negative};
   }
@@ -250,7 +254,7 @@ class Lowering {
 
   const kinematics::Statements& statements_;
   Builder builder_;
-  SymbolMap<const kinematics::Leaf*> leaves_;
+  SymbolMap<kinematics::Leaf> leaves_;
   SymbolMap<const Ex*> bound_;
   std::unordered_set<GiNaC::symbol, SymbolHash, SameSymbol> needed_;
   SymbolMap<Signed> lowered_;
@@ -258,9 +262,9 @@ class Lowering {
 
 }  // namespace
 
-Program lower(const kinematics::Statements& statements, const std::vector<Target>& targets,
-              std::string name) {
-  return Lowering(statements, targets).run(targets, std::move(name));
+Program lower(const kinematics::Statements& statements, const std::vector<Target>& targets, std::string name,
+              Held held) {
+  return Lowering(statements, targets, held).run(targets, std::move(name));
 }
 
 }  // namespace jourdain::lowering

@@ -17,10 +17,13 @@ struct Target {
   kinematics::Ex value;
 };
 
+/// What Statements::hold binds: the value itself, or a leaf of that kind.
+enum class Held { kValues, kLeaves };
+
 /// Program that computes the targets, from those statements that they need. GiNaC orders terms by hashes that change
 /// from run to run; here operands are sorted by a key that depends on the order of declaration alone, and the sign of
 /// a sum's first term is pulled out. Numbers are rounded to double once.
 ir::Program lower(const kinematics::Statements& statements, const std::vector<Target>& targets,
-                  std::string name);
+                  std::string name, Held held = Held::kValues);
 
 }  // namespace jourdain::lowering

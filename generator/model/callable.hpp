@@ -15,6 +15,8 @@
 namespace jourdain::model {
 
 struct Callable {
+  /// Where value, slopes and curvature do not jump, though its expression may choose between pieces.
+  enum class Smooth { kNowhere, kWithinEnds, kEverywhere };
   struct Argument {
     std::string name;
     Measure measure = Measure::open();
@@ -26,6 +28,7 @@ struct Callable {
   /// Of as many expressions as there are arguments.
   std::function<Expression(std::span<const Expression>)> value;
   support::SourceRange where;
+  Smooth smooth = Smooth::kNowhere;
   bool is_external =
       false;  ///< the user may define it: its name, and those of its derivatives, become members
 

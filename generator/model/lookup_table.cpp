@@ -156,6 +156,9 @@ Expression looked_up(const LookupTable& table, std::span<const Expression> argum
 Callable callable(LookupTable table) {
   Callable result{"table", table.name, {{"x", table.axes[0].measure}}, table.measure, {}, table.where};
   if (table.axes.size() == 2) result.arguments.push_back({"y", table.axes[1].measure});
+  if (table.interpolation == Interpolation::kSpline)
+    result.smooth =
+        table.beyond == Beyond::kExtend ? Callable::Smooth::kEverywhere : Callable::Smooth::kWithinEnds;
   result.value = [table = std::move(table)](std::span<const Expression> arguments) {
     return looked_up(table, arguments);
   };

@@ -33,9 +33,9 @@ constexpr std::string_view kLength[] = {"from", "to", "length"};
 constexpr std::string_view kExpression[] = {"residual"};
 constexpr std::string_view kOfVelocities[] = {"velocity"};
 constexpr std::string_view kBlade[] = {"frame", "axis", "plane"};
-constexpr std::string_view kWheel[] = {"frame", "axis", "radius", "plane", "normal"};
-constexpr std::string_view kRound[] = {"frame", "radius", "plane", "normal"};
-constexpr std::string_view kEllipsoid[] = {"frame", "radii", "plane", "normal"};
+constexpr std::string_view kWheel[] = {"frame", "axis", "radius", "plane", "normal", "height", "approaches"};
+constexpr std::string_view kRound[] = {"frame", "radius", "plane", "normal", "height", "approaches"};
+constexpr std::string_view kEllipsoid[] = {"frame", "radii", "plane", "normal", "height", "approaches"};
 
 constexpr auto kKinds = std::to_array<LoopKind>({
     {LoopType::kBall, "ball", kBall, kEnds},

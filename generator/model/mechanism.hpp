@@ -194,6 +194,8 @@ enum class LoopType {
   kRollingBall,   ///< height n·Δ − l = 0; a₁·v = 0, a₂·v = 0; ρ = −l n
   /// D = Σ rᵢ² eᵢ eᵢᵀ, eᵢ axes of `to`: height n·Δ − sqrt(n·D n) = 0; a₁·v = 0, a₂·v = 0; ρ = −D n/sqrt(n·D n)
   kRollingEllipsoid
+  // On ground of a height h over that plane n is the normal m/|m|, m = n₀ − h₁ a₁ − h₂ a₂, where Δ + ρ touches it, Δ
+  // in `height` counts from there, and a₁ and a₂ are along the ground, a₁ over itself, a₂ = n × a₁.
 };
 
 /// A joint that closes a kinematic loop: constraint rows g = 0 beside the tree of the joints. Δ leads from the
@@ -211,6 +213,10 @@ struct Loop {
   Expression length;    ///< rod, m: of time and parameters, positive; radius: of parameters
   Expression residual;  ///< of time, coordinates, positions and axes of frames; kVelocity: and their rates
   Vector3 radii;        ///< r, m: of parameters
+  /// Of the ground over the plane, m: of parameters and of x, y, z, the components in `from` of the plane's point under
+  /// it, in that order as arguments.
+  Expression height;
+  int approaches = 4;  ///< Newton's steps from under the centre to where the ground is touched
   std::optional<ScalarCoordinate> follower;  ///< of a coupler: follows the residual's other coordinate
   SourceRange where = {};
   SourceRange to_where = {};  ///< of the name of the end `to`; line 0: use `where`
@@ -277,6 +283,14 @@ struct ImportedFile {
   std::string prefix;  ///< of the names that it declares
 };
 
+/// Ground that a frame's body touches, for figures: the surface n·(p − o) = h over the plane through o, inertial frame.
+struct DrawnGround {
+  FrameIndex frame;
+  std::array<double, 3> normal{0, 0, 1};  ///< not normalised
+  Vector3 point;                          ///< o, m
+  Expression height;  ///< h, m: of x, y, z, the plane's point under it, as arguments, and of t
+};
+
 inline constexpr double kStandardGravity = 9.81;  ///< m/s²
 
 struct Mechanism : ForceElements {
@@ -294,6 +308,7 @@ struct Mechanism : ForceElements {
   std::vector<KinematicFunction> kinematics;
   std::vector<Loop> loops;
   LoopOptions loop_options;
+  std::vector<DrawnGround> grounds;
   /// Constant angles that are a multiple of a quarter turn but for rounding are that multiple: their matrices
   /// are permutations.
   bool snap = true;

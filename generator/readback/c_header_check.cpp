@@ -95,10 +95,12 @@ class CHeaderCheck {
       wanted.erase(it);
     }
     Texts pointers, called;
-    for (const auto& [name, count] : unit_.user_functions)
-      pointers.push_back(fmt::format("{}/{}", name, count));
+    const auto shown = [](const std::string& name, const Texts& arguments) {
+      return fmt::format("{}({})", name, fmt::join(arguments, ", "));
+    };
+    for (const auto& [name, arguments] : unit_.user_functions) pointers.push_back(shown(name, arguments));
     for (const auto& [name, function] : expected_.user_functions())
-      called.push_back(fmt::format("{}/{}", name, function.arguments.size()));
+      called.push_back(shown(name, function.arguments));
     findings_.expect("functions of the user", fmt::format("{}", fmt::join(pointers, "; ")),
                      fmt::format("{}", fmt::join(called, "; ")));
     if (!has_model) findings_.add("there is no model struct");

@@ -194,14 +194,14 @@ class CFileParser : public StatementParser {
       expect(")");
       expect("(");
       pointer_to_context();
-      std::size_t count = 0;
-      for (; accept(","); ++count) {
+      std::vector<std::string> arguments;
+      while (accept(",")) {
         expect_word(known_.c->real());
-        expect_name();
+        arguments.push_back(unit_.symbols.text(expect_name()));
       }
       expect(")");
       expect(";");
-      unit_.user_functions.emplace_back(name, count);
+      unit_.user_functions.emplace_back(name, arguments);
     } while (!accept("}"));
     if (peek().text != known_.c->prefix + "functions") refuse_here("the functions of the user");
   }

@@ -82,6 +82,14 @@ class ManifestCheck {
     expect("inputs", expected_.inputs);
     expect("outputs", outputs);
     expect("functions", expected_.functions);
+    called();
+  }
+
+  void called() {
+    json wanted = json::array();
+    for (const auto& [name, function] : expected_.user_functions())
+      wanted.push_back({{"name", name}, {"arguments", function.arguments}});
+    if (!wanted.empty()) expect("user_functions", wanted);
   }
 
   void imported() {

@@ -196,8 +196,8 @@ struct Unit {
   std::set<Symbol> numbers;  ///< struct templates that stand for the type of their numbers
   std::map<std::string, std::vector<double>>
       tables;  ///< of namespace detail: functions that take entries, with these
-  /// Of C: pointers to functions that the user defines, with the number of their arguments.
-  std::vector<std::pair<std::string, std::size_t>> user_functions;
+  /// Of C: pointers to functions that the user defines, with the names of their arguments.
+  std::vector<std::pair<std::string, std::vector<std::string>>> user_functions;
   std::map<std::string, support::CalledFunction> called;  ///< what the text may call of its user
   bool has_own_sines = false;                             ///< sines that are written out, not the C library's
   // Where all of it lives.

@@ -50,6 +50,7 @@ class FigureMaker {
     for (std::size_t b = 0; b < mechanism_.bodies.size(); ++b) add_body(b);
     for (const model::Joint& joint : mechanism_.joints) add_joint(joint);
     for (const model::Loop& loop : mechanism_.loops) add_loop(loop);
+    for (const model::DrawnGround& ground : mechanism_.grounds) add_ground(ground);
     for_each_force_element(mechanism_, [this](const auto& element) { add_force_element(element.ends()); });
     for (std::size_t b = 0; b < mechanism_.bodies.size(); ++b)
       if (!holds_something_[b]) stick(b, figure_.bodies[b].center);
@@ -109,6 +110,62 @@ class FigureMaker {
     if (points.size() == 2) figure_.lines.push_back({LineKind::kSpring, points[0], points[1]});
   }
 
+  /// The plane that it rolls on, or the ground over that.
+  void add_ground(const model::Loop& loop) {
+    const model::Frame& from = mechanism_.frames[loop.from.value];
+    FigureGround ground;
+    if (from.body) ground.body = from.body->value;
+    ground.point = numbers(from.placement.position);
+    ground.normal = axis_in(from.placement, loop.axis);
+    const auto axes = model::plane_axes(unit(loop.axis));
+    for (std::size_t i = 0; i < 2; ++i) ground.along[i] = axis_in(from.placement, axes[i]);
+    add_ground(std::move(ground), loop.to, loop.height, axes, {});
+  }
+
+  /// At the start.
+  void add_ground(const model::DrawnGround& drawn) {
+    FigureGround ground;
+    ground.normal = unit(drawn.normal);
+    ground.along = model::plane_axes(ground.normal);
+    const Numbers3 o = numbers(drawn.point);
+    const double level = ground.normal[0] * o[0] + ground.normal[1] * o[1] + ground.normal[2] * o[2];
+    for (std::size_t k = 0; k < 3; ++k) ground.point[k] = level * ground.normal[k];
+    const auto along = ground.along;
+    const Numbers3 point = ground.point;
+    add_ground(std::move(ground), drawn.frame, drawn.height, along, point);
+  }
+
+  /// Its height is of the components `from` + a axes[0] + b axes[1].
+  void add_ground(FigureGround ground, model::FrameIndex touching, const model::Expression& height,
+                  const std::array<Numbers3, 2>& axes, const Numbers3& from) {
+    const std::optional<model::BodyIndex> body = mechanism_.frames[touching.value].body;
+    if (!body) return;
+    if (!height.is_zero())
+      ground.height = [height, axes, from, parameters = parameters_](double a, double b) {
+        return height.evaluate<double>(
+            parameters, [](double literal) { return literal; },
+            [&](const model::Variable& v) {
+              if (v.kind == model::Variable::Kind::kTime) return 0.0;
+              return from[v.component] + a * axes[0][v.component] + b * axes[1][v.component];
+            });
+      };
+    const auto same =
+        std::ranges::find_if(figure_.grounds, [&](const FigureGround& g) { return is_same(g, ground); });
+    FigureGround& one =
+        same != figure_.grounds.end() ? *same : figure_.grounds.emplace_back(std::move(ground));
+    one.touching.push_back(body->value);
+  }
+
+  /// Of two heights some values are enough to tell.
+  static bool is_same(const FigureGround& a, const FigureGround& b) {
+    if (a.body != b.body || a.point != b.point || a.normal != b.normal || !a.height != !b.height)
+      return false;
+    if (!a.height) return true;
+    for (const auto& [x, y] : {std::pair(0.0, 0.0), {0.37, 0.21}, {-1.3, 0.7}, {2.9, -3.1}})
+      if (a.height(x, y) != b.height(x, y)) return false;
+    return true;
+  }
+
   Numbers3 axis_in(const model::Placement& placement, const std::array<double, 3>& axis) const {
     return model::product(model::rotation_from_rpy(numbers(placement.rotation.rpy)), unit(axis));
   }
@@ -131,7 +188,10 @@ class FigureMaker {
 
   void add_loop(const model::Loop& loop) {
     const model::LoopKind& kind = model::loop_kind(loop);
-    if (kind.is_constraint()) return add_round(loop);
+    if (kind.is_constraint()) {
+      if (kind.takes("height")) add_ground(loop);
+      return add_round(loop);
+    }
     if (!kind.has_ends()) return;
     const FigurePoint from = attached(loop.from), to = attached(loop.to);
     figure_.lines.push_back({kind.is_bar() ? LineKind::kBody : LineKind::kSlide, from, to});

@@ -1,6 +1,8 @@
 // What a page shows of a mechanism: bodies, whose poses the emitted outputs give, and what is fixed to them.
 #pragma once
 
+#include <array>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,6 +43,15 @@ struct FigureJoint {
   std::optional<std::size_t> child = {};  ///< none where a loop closes
 };
 
+/// Ground that bodies touch: point + a along[0] + b along[1] + height(a, b) normal, fixed to a body or to the world.
+struct FigureGround {
+  std::optional<std::size_t> body = {};
+  model::Numbers3 point = {}, normal = {};  ///< m; of unit length, as `along`, in the body's frame
+  std::array<model::Numbers3, 2> along = {};
+  std::function<double(double a, double b)> height;  ///< m; none: 0
+  std::vector<std::size_t> touching;                 ///< bodies
+};
+
 struct FigureBody {
   std::string name;
   double mass = 0;              ///< kg
@@ -56,6 +67,7 @@ struct Figure {
   std::vector<FigureLine> lines;
   std::vector<FigureShape> shapes;
   std::vector<FigureJoint> joints;
+  std::vector<FigureGround> grounds;
   bool flies = false;  ///< some body is free, or hangs on a spherical joint
 };
 

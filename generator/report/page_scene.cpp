@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -177,6 +178,79 @@ Json joint_json(const FigureJoint& joint) {
           {"child", joint.child ? static_cast<long>(*joint.child) : -1L}};
 }
 
+/// Lines of ground where bodies are, and a little further; in a plane that is seen from along `across`, one.
+class GroundLines {
+ public:
+  GroundLines(const FigureGround& ground, const std::vector<Frame>& frames,
+              const std::optional<Vector3d>& across)
+      : ground_(ground) {
+    double clearance = std::numeric_limits<double>::infinity();
+    for (const Frame& frame : frames)
+      for (const std::size_t b : ground.touching) {
+        const Vector3d p = seen(frame, frame[b].r) - vector(ground.point);
+        for (std::size_t i = 0; i < 2; ++i) {
+          const double x = p.dot(vector(ground.along[i]));
+          low_[i] = std::min(low_[i], x);
+          high_[i] = std::max(high_[i], x);
+        }
+        clearance = std::min(clearance, std::fabs(p.dot(vector(ground.normal))));
+      }
+    const double widest = std::max(high_[0] - low_[0], high_[1] - low_[1]);
+    const double margin = std::max({0.1 * widest, 2 * clearance, 1e-3});
+    gap_ = std::clamp(clearance, (widest + 2 * margin) / 30, (widest + 2 * margin) / 10);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const bool is_seen =
+          !across || std::fabs(vector(ground.along[i]).dot(*across)) < 1 - kInPlane || ground.body;
+      if (!is_seen) continue;
+      low_[i] -= margin;
+      high_[i] += margin;
+    }
+  }
+
+  Json json() const {
+    Json lines = Json::array();
+    for (const std::size_t along : {0, 1}) {
+      if (high_[along] - low_[along] < gap_) continue;
+      const std::size_t count = steps(1 - along, gap_);
+      for (std::size_t k = 0; k <= count; ++k) lines.push_back(line(along, at(1 - along, k, count)));
+    }
+    return {{"body", ground_.body ? static_cast<long>(*ground_.body) : -1L}, {"lines", lines}};
+  }
+
+ private:
+  Vector3d seen(const Frame& frame, const Vector3d& r) const {
+    if (!ground_.body) return r;
+    const Pose& pose = frame[*ground_.body];
+    return pose.R.transpose() * (r - pose.r);
+  }
+
+  std::size_t steps(std::size_t axis, double length) const {
+    return static_cast<std::size_t>(std::ceil((high_[axis] - low_[axis]) / length));
+  }
+  double at(std::size_t axis, std::size_t k, std::size_t count) const {
+    if (count == 0) return low_[axis];
+    return low_[axis] + (high_[axis] - low_[axis]) * static_cast<double>(k) / static_cast<double>(count);
+  }
+
+  /// A list of points, of those where there is a height.
+  Json line(std::size_t along, double other) const {
+    Json points = Json::array();
+    const std::size_t count = ground_.height ? steps(along, gap_ / 2) : 1;
+    for (std::size_t k = 0; k <= count; ++k) {
+      const double x = at(along, k, count), a = along == 0 ? x : other, b = along == 0 ? other : x;
+      const double height = ground_.height ? ground_.height(a, b) : 0;
+      const Vector3d p = vector(ground_.point) + a * vector(ground_.along[0]) + b * vector(ground_.along[1]) +
+                         height * vector(ground_.normal);
+      if (p.allFinite()) points.push_back(list(p));
+    }
+    return points;
+  }
+
+  const FigureGround& ground_;
+  double low_[2] = {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()},
+         high_[2] = {-low_[0], -low_[1]}, gap_ = 1;
+};
+
 template <class Entry>
 Json all(const std::vector<Entry>& entries, Json (*one)(const Entry&)) {
   Json result = Json::array();
@@ -201,6 +275,9 @@ std::string scene_json(const studies::Flow<double>& flow, const studies::Study& 
   const Vector3d g = vector(figure.gravity);
   const std::optional<Vector3d> normal = plane_normal(figure, frames);
   const Axes axes = normal ? front_axes(*normal, g) : spatial_axes(g);
+  Json grounds = Json::array();
+  for (const FigureGround& ground : figure.grounds)
+    grounds.push_back(GroundLines(ground, frames, normal).json());
   const Json scene = {{"interval", reference.interval * static_cast<double>(stride)},
                       {"duration", study.judged},
                       {"planar", normal.has_value()},
@@ -211,6 +288,7 @@ std::string scene_json(const studies::Flow<double>& flow, const studies::Study& 
                       {"lines", all(figure.lines, line_json)},
                       {"shapes", all(figure.shapes, shape_json)},
                       {"joints", all(figure.joints, joint_json)},
+                      {"grounds", grounds},
                       {"frames", frames_json(frames)}};
   return for_script(scene.dump());
 }

@@ -52,7 +52,7 @@ struct Bounded {
     using std::cosh, std::exp, std::log, std::sinh;
     using support::Function, support::value_of;
     const Scalar result = value_of(function, a.value, b.value), one = Scalar(1);
-    Scalar moved = Scalar(0);
+    auto moved = Scalar(0);
     switch (function) {
       case Function::kAtan2: {
         const Scalar square = a.value * a.value + b.value * b.value;

@@ -1,5 +1,9 @@
 #include "reference/descriptor_loops.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "model/loop_kinds.hpp"
 #include "reference/decompositions.hpp"
 #include "reference/descriptor_rows.hpp"
@@ -113,17 +117,13 @@ class Closing {
       case LoopType::kKnifeEdge:
         add_velocity(at.w.dot(slip(loop, at.delta, Direction(T(0), T(0), T(0)))));
         break;
-      case LoopType::kRollingWheel: {
-        const T lean = at.n.dot(at.w);
-        const Direction along = at.n - at.w * lean;
-        touch(loop, at, Direction(along * (-value(loop.length) / sqrt(along.dot(along)))));
-        break;
-      }
+      case LoopType::kRollingWheel:
       case LoopType::kRollingBall:
-        touch(loop, at, Direction(at.n * -value(loop.length)));
-        break;
       case LoopType::kRollingEllipsoid:
-        touch(loop, at, lowest(loop, at.n));
+        if (loop.height.is_zero())
+          touch(loop, at, at.n, at.a, lowest(loop, at, at.n));
+        else
+          touch_ground(loop, at);
         break;
       case LoopType::kResidual:
       case LoopType::kVelocity:
@@ -131,8 +131,16 @@ class Closing {
     }
   }
 
+  /// From the centre to where it is lowest over a plane with the normal n.
+  Direction lowest(const Loop<Scalar>& loop, const Ends& at, const Direction& n) const {
+    if (loop.type == LoopType::kRollingBall) return n * -value(loop.length);
+    if (loop.type == LoopType::kRollingEllipsoid) return lowest_of_ellipsoid(loop, n);
+    const Direction along = n - at.w * n.dot(at.w);
+    return along * (-value(loop.length) / sqrt(along.dot(along)));
+  }
+
   /// Of an ellipsoid x·S⁻² x = 1 in its own axes, S of its radii: −S m/|m| with m = S n.
-  Direction lowest(const Loop<Scalar>& loop, const Direction& n) const {
+  Direction lowest_of_ellipsoid(const Loop<Scalar>& loop, const Direction& n) const {
     const Pose<T> to = frame(loop.to);
     Direction m = to.R_WF.transpose() * n;
     for (Eigen::Index k = 0; k < 3; ++k) m[k] *= value(loop.radii[std::size_t(k)]);
@@ -141,11 +149,74 @@ class Closing {
     return to.R_WF * m;
   }
 
-  /// The point at `lever` from the origin of `to` is in the plane and does not slip.
-  void touch(const Loop<Scalar>& loop, const Ends& at, const Direction& lever) {
-    add_row(at.n.dot(at.delta + lever));
+  /// The point at `lever` from the origin of `to` is in a plane through `foot`, which leads from the origin of `from`,
+  /// and does not slip.
+  void touch(const Loop<Scalar>& loop, const Ends& at, const Direction& n,
+             std::span<const Direction, 2> along, const Direction& lever,
+             const Direction& foot = Direction(T(0), T(0), T(0))) {
+    add_row(n.dot(at.delta + lever - foot));
     const Direction v = slip(loop, at.delta, lever);
-    for (const Direction& a : at.a) add_velocity(a.dot(v));
+    for (const Direction& a : along) add_velocity(a.dot(v));
+  }
+
+  /// Of ground: the height there, and the slopes along a₁ and a₂.
+  struct Ground {
+    T height, slopes[2];
+  };
+
+  Ground ground(const Loop<Scalar>& loop, const T (&place)[2]) const {
+    using Along = TimeJet<T>;  // along a line of the plane in place of time
+    const std::vector<Along> parameters(parts_.parameters.begin(), parts_.parameters.end());
+    Ground result;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Along height = loop.height.template evaluate<Along>(
+          parameters, [](double literal) { return Along(T(Scalar(literal))); },
+          [&](const model::Variable& v) -> Along {
+            const auto k = Eigen::Index(v.component);
+            const T point = place[0] * T(loop.normals[0][k]) + place[1] * T(loop.normals[1][k]);
+            return Along(point, T(loop.normals[i][k]), T(0));
+          });
+      result.height = height.value;
+      result.slopes[i] = height.rate;
+    }
+    return result;
+  }
+
+  /// The point p of the plane over which the ground is touched is that under the centre and under the lever there: each
+  /// time closer by radius times curvature, until rounding moves it.
+  void touch_ground(const Loop<Scalar>& loop, const Ends& at) {
+    constexpr int kMost = 2000;
+    const Scalar rounding = Scalar(4) * std::numeric_limits<Scalar>::epsilon(), nearly = sqrt(rounding);
+    T place[2] = {at.a[0].dot(at.delta), at.a[1].dot(at.delta)};
+    const T under[2] = {place[0], place[1]};
+    Direction n, lever;
+    Ground here;
+    Scalar before = std::numeric_limits<Scalar>::max();
+    for (int i = 0; i < kMost; ++i) {
+      here = ground(loop, place);
+      const Direction m = at.n - at.a[0] * here.slopes[0] - at.a[1] * here.slopes[1];
+      n = m / sqrt(m.dot(m));
+      lever = lowest(loop, at, n);
+      Scalar moved = 0;
+      for (std::size_t k = 0; k < 2; ++k) {
+        const T next = under[k] + at.a[k].dot(lever);
+        moved = std::max(moved, share_moved(place[k], next));
+        place[k] = next;
+      }
+      if (moved <= rounding || (moved <= nearly && moved >= before)) break;
+      before = moved;
+    }
+    const Direction level = at.a[0] - n * n.dot(at.a[0]), first = level / sqrt(level.dot(level));
+    const Direction along[2] = {first, n.cross(first)};
+    touch(loop, at, n, along, lever, at.a[0] * place[0] + at.a[1] * place[1] + at.n * here.height);
+  }
+
+  /// The largest change of a number and its derivatives, each over one more than its size.
+  static Scalar share_moved(const T& before, const T& after) {
+    const auto size = [](const Scalar& x) { return x < 0 ? -x : x; };
+    const auto share = [&](const Scalar& a, const Scalar& b) { return size(b - a) / (Scalar(1) + size(b)); };
+    return std::max({share(before.value, after.value), share(before.rate, after.rate),
+                     share(before.acceleration, after.acceleration)});
   }
 
   /// How fast the body of `to` passes the body of `from` at `lever` from the origin of `to`.
@@ -223,6 +294,7 @@ std::vector<Loop<Scalar>> read_loops(const model::Mechanism& mechanism) {
     loop.length = given.length;
     loop.residual = given.residual;
     loop.radii = given.radii;
+    loop.height = given.height;
     if (!model::loop_kind(given).has_ends()) continue;
     loop.from = given.from.value;
     loop.to = given.to.value;

@@ -25,6 +25,7 @@ struct Loop {
   Vector3<Scalar> to_normals[2];       ///< b₁, b₂
   model::Expression length, residual;  ///< m; any unit
   model::Vector3 radii;                ///< m
+  model::Expression height;            ///< m
 };
 
 template <class Scalar>

@@ -102,6 +102,7 @@ struct TimeJet {
     return floor(a.value);
   }
   friend bool operator<(const TimeJet& a, const TimeJet& b) { return a.value < b.value; }
+  bool operator==(const TimeJet&) const = default;
 };
 
 }  // namespace jourdain::reference::descriptor

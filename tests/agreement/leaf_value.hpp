@@ -17,6 +17,7 @@ inline double leaf_value(const Sample& sample, kinematics::LeafKind kind, std::s
     case kinematics::LeafKind::kAcceleration:
       return sample.zdot[i];
     case kinematics::LeafKind::kMultiplier:
+    case kinematics::LeafKind::kHeld:
       return 0;
     case kinematics::LeafKind::kInput:
       return sample.u[i];

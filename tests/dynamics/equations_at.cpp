@@ -27,6 +27,7 @@ double leaf(const model::Mechanism& mechanism, const StateNumbers& state, LeafKi
     case LeafKind::kAcceleration:
     case LeafKind::kMultiplier:
     case LeafKind::kStepLength:
+    case LeafKind::kHeld:
       return 0;
   }
   return 0;

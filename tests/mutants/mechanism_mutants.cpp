@@ -36,6 +36,7 @@ class Numbers {
       const model::LoopKind& kind = model::loop_kind(loop);
       if (kind.takes("length") || kind.takes("radius")) visit_("length of " + loop.name, loop.length);
       if (kind.takes("radii")) vector("radii of " + loop.name, loop.radii);
+      if (!loop.height.is_zero()) visit_("height of " + loop.name, loop.height);
     }
   }
 

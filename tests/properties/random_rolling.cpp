@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "model/loop_kinds.hpp"
 #include "model/output_kinds.hpp"
 #include "properties/arithmetic.hpp"
 #include "properties/consistent_state.hpp"
@@ -74,6 +75,19 @@ class Constraints {
   std::vector<model::ScalarCoordinate> scalars_;
 };
 
+/// Some of what rolls does so on ground of a height, less curved than it is.
+void raise_ground(model::Mechanism& mechanism, Random& random) {
+  for (model::Loop& loop : mechanism.loops) {
+    if (!model::loop_kind(loop).takes("height") || !random.chance(0.15)) continue;
+    Expression phase = random.uniform(-2, 2);
+    for (std::size_t k = 0; k < 3; ++k)
+      phase = phase + Expression(random.uniform(-2, 2)) *
+                          Expression::variable({.kind = Variable::Kind::kArgument, .component = k});
+    loop.height = Expression(random.uniform(0.01, 0.03)) * sine(phase);
+    if (random.chance(0.3)) loop.height = loop.height + Expression(random.uniform(-0.2, 0.2)) * phase;
+  }
+}
+
 /// A body that flies freely.
 void add_flying_body(model::Mechanism& mechanism, Random& random) {
   model::Joint joint;
@@ -134,6 +148,8 @@ model::Mechanism random_rolling(std::uint64_t seed) {
     Constraints constraints(mechanism, random);
     constraints.add(kTypes[seed / 3 % 5]);  // goes with the seed: a type that passes seldom is there as often
     if (random.chance(0.4)) constraints.add(kTypes[random.below(5)]);
+    Random ground(stream ^ 0x47524e44u);
+    raise_ground(mechanism, ground);
     if (is_good(mechanism, seed)) return mechanism;
   }
   JD_CHECK(false, "no mechanism for seed {}", seed);

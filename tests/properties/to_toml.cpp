@@ -285,13 +285,16 @@ class Writer {
       text_ += kind.is_constraint() ? key_of_constraint(loop, key) : own_key(loop, key);
   }
 
-  std::string key_of_constraint(const model::Loop& loop, std::string_view key) const {
+  std::string key_of_constraint(const model::Loop& loop, std::string_view key) {
     if (key == "frame") return fmt::format("frame = \"{}\"\n", frame(loop.to));
     if (key == "plane") return fmt::format("plane = \"{}\"\n", frame(loop.from));
     if (key == "axis") return axis("axis", loop.to_axis);
     if (key == "normal") return axis("normal", loop.axis);
     if (key == "radii") return fmt::format("radii = {}\n", vector(loop.radii));
     if (key == "radius") return fmt::format("radius = {}\n", value(loop.length));
+    if (key == "height") return fmt::format("height = {}\n", with({"x", "y", "z"}, loop.height));
+    if (key == "approaches")
+      return loop.height.is_zero() ? "" : fmt::format("approaches = {}\n", loop.approaches);
     JD_CHECK(key == "velocity", "no words for the key '{}' of a constraint", key);
     return fmt::format("velocity = {}\n", value(loop.residual));
   }

@@ -77,6 +77,8 @@ name = "stone"
 type = "rolling_ellipsoid"
 frame = "rod"
 radii = [1, "l", 3]
+height = "0.1*sin(x/l) + 0.2*y*z/l"
+approaches = 6
 )";
   const model::Mechanism first = read(text), second = read(to_toml(first));
   ASSERT_EQ(first.loops.size(), 5u);

@@ -62,6 +62,8 @@ TEST(ExternalFunctionsText, IsReadCallByCallInCpp) {
   expect_seen(text, "rig.hpp", "struct Functions;", "struct Function;");
   expect_seen(text, "rig.hpp", "using Functions = rig::Functions<Real>;", "");
   expect_seen(text, "rig.cpp", "rig_functions.hpp", "rig_function.hpp");
+  expect_seen(text, "rig.json", R"({"name": "grip", "arguments": ["slip", "load", "width"]})",
+              R"({"name": "grip", "arguments": ["load", "slip", "width"]})");
 }
 
 TEST(ExternalFunctionsText, IsReadCallByCallInC) {
@@ -75,8 +77,9 @@ TEST(ExternalFunctionsText, IsReadCallByCallInC) {
     expect_seen(text, source, "model->functions.context", "model->context");
     expect_seen(text, source, "model->functions.context, ", "");
     expect_seen(text, header, "(*grip)(void *context", "(*grip2)(void *context");
-    expect_seen(text, header,
-                ", " + std::string(source == std::string("rig.c") ? "double" : "float") + " load", "");
+    const std::string real = source == std::string("rig.c") ? "double" : "float";
+    expect_seen(text, header, ", " + real + " load", "");
+    expect_seen(text, header, real + " slip, " + real + " load", real + " load, " + real + " slip");
     expect_seen(text, header, "functions functions;", "state functions;");
   }
 }

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "rolling_disc_steps/rolling_disc_steps_kernels.hpp"
+#include "rolling_hills_steps/rolling_hills_steps_kernels.hpp"
 #include "sleigh_all/sleigh_all_kernels.hpp"
 #include "steppers/measured_order.hpp"
 #include "steppers/visit_steppers.hpp"
@@ -52,36 +53,52 @@ TEST(RollingSteps, SleighFollowsItsClosedForm) {
   EXPECT_LE(std::fabs(state.z[2]), 0.01 * double(w0));
 }
 
-TEST(RollingSteps, DiscStaysOnThePlaneForAMillionSteps) {
-#ifdef JOURDAIN_SANITIZED
-  constexpr int kSteps = 10000;
-#else
-  constexpr int kSteps = 1000000;
-#endif
-  const rolling_disc_steps::Model<double> model;
-  auto state = rolling_disc_steps::initial_state(model);
-  const auto energy = [&] {
-    return rolling_disc_steps::kinetic_energy(model, state) +
-           rolling_disc_steps::potential_energy(model, state);
-  };
-  const double before = energy();
+/// Of RK4 steps of 1 ms, what is left open and how far the energy goes.
+template <class Model, class State, class Step, class Residual, class Energy>
+void expect_kept(const char* name, const Model& model, State state, int steps, const Step& step,
+                 const Residual& residual, const Energy& energy) {
+  const double before = energy(model, state);
   double height = 0, slip = 0, way = 0, largest = 0;
-  for (int i = 1; i <= kSteps; ++i) {
-    rolling_disc_steps::rk4_step(model, state, {}, 1e-3);
+  for (int i = 1; i <= steps; ++i) {
+    step(model, state);
     double g[3], rate[3];
-    rolling_disc_steps::constraint_residual(model, state, g, rate);
+    residual(model, state, g, rate);
     height = std::max(height, std::fabs(g[0]));
     for (const double r : rate) slip = std::max(slip, std::fabs(r));
     way += std::hypot(state.z[0], state.z[1]) * 1e-3;
-    largest = std::max(largest, std::fabs(energy() - before));
+    largest = std::max(largest, std::fabs(energy(model, state) - before));
   }
-  fmt::print(
-      "disc: {:.0f} m rolled, height within {:.1e} m, slip {:.1e} m/s, energy within {:.1e} of itself\n", way,
-      height, slip, largest / before);
+  fmt::print("{}: {:.0f} m rolled, height within {:.1e} m, slip {:.1e} m/s, energy within {:.1e} of itself\n",
+             name, way, height, slip, largest / before);
   EXPECT_LE(height, 1e-12);
   EXPECT_LE(slip, 1e-11);
   EXPECT_LE(largest, 1e-6 * before);
-  EXPECT_GE(way, 1e-3 * kSteps);
+  EXPECT_GE(way, 1e-3 * steps);
+}
+
+#define JOURDAIN_EXPECT_KEPT(model, steps)                                                 \
+  expect_kept(                                                                             \
+      #model, model::Model<double>(), model::initial_state(model::Model<double>()), steps, \
+      [](const auto& of, auto& state) { model::rk4_step(of, state, {}, 1e-3); },           \
+      [](const auto& of, const auto& state, auto& g, auto& rate) {                         \
+        model::constraint_residual(of, state, g, rate);                                    \
+      },                                                                                   \
+      [](const auto& of, const auto& state) {                                              \
+        return model::kinetic_energy(of, state) + model::potential_energy(of, state);      \
+      })
+
+#ifdef JOURDAIN_SANITIZED
+constexpr int kManySteps = 10000;
+#else
+constexpr int kManySteps = 1000000;
+#endif
+
+TEST(RollingSteps, DiscStaysOnThePlaneForAMillionSteps) {
+  JOURDAIN_EXPECT_KEPT(rolling_disc_steps, kManySteps);
+}
+
+TEST(RollingSteps, DiscStaysOnHillsForAMillionSteps) {
+  JOURDAIN_EXPECT_KEPT(rolling_hills_steps, kManySteps);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "loops/record/loop_plan.hpp"
 #include "loops/rows/regular_rows.hpp"
@@ -99,6 +100,36 @@ class Redundancy {
   support::Diagnostics& diagnostics_;
 };
 
+/// Whether the search for points finds them at the start; elsewhere it may miss them, with a warning.
+bool check_searches(const model::Mechanism& mechanism, const NumericClosure& closure,
+                    const std::vector<Configuration>& configurations, support::Diagnostics& diagnostics) {
+  LoopPlan kept;
+  kept.treatment = model::LoopTreatment::kMultipliers;
+  const long double limit = std::sqrt(static_cast<long double>(kept.greatest_opening()));
+  const auto finds = [&](const NumericClosure::Miss& miss) { return miss.length <= limit; };
+  const auto tell = [&](const NumericClosure::Miss& miss, const char* where, auto say) {
+    const model::Loop& loop = mechanism.loops[miss.loop];
+    const std::string what =
+        std::isinf(miss.length)
+            ? fmt::format("the ground of {} is more curved {} than what rolls on it", in_words(loop), where)
+            : fmt::format("where {} touches the ground is not found {}: the last approach is {:.1g} m",
+                          in_words(loop), where, static_cast<double>(miss.length));
+    (diagnostics.*say)(loop.where, what,
+                       "ground must be less curved than what rolls on it; 'approaches' may be up to 20");
+  };
+  const NumericClosure::Miss first = closure.missed(configurations.front());
+  if (!finds(first)) {
+    tell(first, "at the start", &support::Diagnostics::error);
+    return false;
+  }
+  for (const Configuration& c : configurations)
+    if (const NumericClosure::Miss miss = closure.missed(c); !finds(miss)) {
+      tell(miss, "at some states", &support::Diagnostics::warning);
+      break;
+    }
+  return true;
+}
+
 }  // namespace
 
 bool check_velocities(const model::Mechanism& mechanism, const NumericClosure& closure,
@@ -112,6 +143,7 @@ bool check_velocities(const model::Mechanism& mechanism, const NumericClosure& c
                       "leave 'treatment' and 'independent' out");
     return false;
   }
+  if (!check_searches(mechanism, closure, configurations, diagnostics)) return false;
   const Redundancy redundancy(mechanism, closure, kept, diagnostics);
   return std::all_of(configurations.begin(), configurations.end(),
                      [&](const Configuration& c) { return redundancy.check(c); });

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "reference/decompositions.hpp"
 #include "support/matrix_index.hpp"
@@ -115,6 +116,18 @@ Vector NumericClosure::bias(const Configuration& config, const Vector& z) const 
   for (std::size_t k = 0; k < values.size(); ++k)
     if (programs_.rates.outputs[k].name == "gamma") gamma[at(programs_.rates.outputs[k].row)] = values[k];
   return gamma;
+}
+
+NumericClosure::Miss NumericClosure::missed(const Configuration& config) const {
+  const std::vector<long double> values = ir::interpret(programs_.misses, leaves(config, {}));
+  Miss worst;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const ir::Output& output = programs_.misses.outputs[k];
+    long double length = output.name == "miss" ? std::sqrt(values[k]) : 0;
+    if (output.name != "miss" && !(values[k] > 0)) length = std::numeric_limits<long double>::infinity();
+    if (!(length <= worst.length)) worst = {length, support::subscript(output.row)};
+  }
+  return worst;
 }
 
 std::vector<std::size_t> NumericClosure::reversed(const Configuration& config) const {

@@ -53,6 +53,12 @@ class NumericClosure {
   Vector time_rate(const Configuration& at) const;  ///< g_t
   /// γ = g̈ − G ż
   Vector bias(const Configuration& at, const Vector& z) const;
+  /// By how much points that are looked for in the rows may be missed there, m, and whose loop it is: where most.
+  struct Miss {
+    long double length = 0;  ///< infinite where it is found, but others are nearer
+    std::size_t loop = 0;
+  };
+  Miss missed(const Configuration& at) const;
   /// Loops that are closed with axes against each other.
   std::vector<std::size_t> reversed(const Configuration& at) const;
 

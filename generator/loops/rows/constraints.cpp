@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "ir/compose.hpp"
+#include "loops/rows/row_derivatives.hpp"
 #include "lowering/cheapest_elimination.hpp"
 #include "lowering/lower.hpp"
 #include "model/coordinates.hpp"
@@ -15,11 +16,10 @@ namespace jourdain::loops {
 
 using ir::Builder;
 using ir::EliminationOrder;
-using ir::JacobianEntries;
 using ir::LeafKind;
 using ir::Program;
-using ir::Seed;
 using ir::Signed;
+using lowering::Held;
 
 namespace {
 
@@ -43,12 +43,15 @@ std::map<std::size_t, double> positions_inward(const model::Mechanism& mechanism
 /// Copies targets of each loop into one program; outputs that are 0 whatever the state are left out where `sparse`.
 class LoopLowering {
  public:
-  LoopLowering(const model::Mechanism& mechanism, const dynamics::Equations& equations)
-      : mechanism_(mechanism), equations_(equations), layout_(model::lay_out_coordinates(mechanism)) {}
+  LoopLowering(const model::Mechanism& mechanism, const dynamics::Equations& equations, Held held)
+      : mechanism_(mechanism),
+        equations_(equations),
+        layout_(model::lay_out_coordinates(mechanism)),
+        held_(held) {}
 
   void add(std::size_t loop, const lowering::Target& target, bool sparse = false) {
     const std::map<std::size_t, double> fixed = inward(mechanism_.loops[loop]);
-    const Program one = lowering::lower(equations_.statements, {target}, target.name);
+    const Program one = lowering::lower(equations_.statements, {target}, target.name, held_);
     const Signed copy = ir::insert(builder_, one, [&](LeafKind kind, std::size_t i) {
       const auto it = fixed.find(i);
       const bool given = kind == LeafKind::kPosition && it != fixed.end();
@@ -72,6 +75,7 @@ class LoopLowering {
   const model::Mechanism& mechanism_;
   const dynamics::Equations& equations_;
   model::CoordinateLayout layout_;
+  Held held_;
   Builder builder_;
 };
 
@@ -81,18 +85,19 @@ class Lowered {
   Lowered(const model::Mechanism& mechanism, const dynamics::Equations& equations)
       : mechanism_(mechanism), equations_(equations) {}
 
-  Program values() const {
-    return by_row("g", [](LoopLowering& program, const auto& closure, std::size_t l, std::size_t r, int row) {
+  Program values(Held held = Held::kValues) const {
+    const auto add = [](LoopLowering& program, const auto& closure, std::size_t l, std::size_t r, int row) {
       program.add(l, {"g", row, -1, closure.rows[r]});
-    });
+    };
+    return by_row("g", add, held);
   }
 
-  Program velocities() const {
-    return by_row("velocities",
-                  [](LoopLowering& program, const auto& closure, std::size_t l, std::size_t r, int row) {
-                    if (const auto it = closure.velocities.find(r); it != closure.velocities.end())
-                      program.add(l, {"v", row, -1, it->second});
-                  });
+  Program velocities(Held held = Held::kValues) const {
+    const auto add = [](LoopLowering& program, const auto& closure, std::size_t l, std::size_t r, int row) {
+      if (const auto it = closure.velocities.find(r); it != closure.velocities.end())
+        program.add(l, {"v", row, -1, it->second});
+    };
+    return by_row("velocities", add, held);
   }
 
   /// Rates of the states that motions follow, by their entry.
@@ -104,11 +109,43 @@ class Lowered {
   }
 
   Program senses() const {
-    LoopLowering program(mechanism_, equations_);
+    LoopLowering program(mechanism_, equations_, Held::kValues);
     for (std::size_t l = 0; l < equations_.closures.size(); ++l)
       for (const dynamics::Ex& sense : equations_.closures[l].senses)
         program.add(l, {"sense", static_cast<int>(l), -1, sense});
     return program.finish("sense");
+  }
+
+  Program misses() const {
+    return by_search("misses", Held::kValues,
+                     [](LoopLowering& program, const auto& search, std::size_t l, int k) {
+                       const auto loop = static_cast<int>(l);
+                       program.add(l, {"miss", loop, k, search.missed});
+                       program.add(l, {"determinant", loop, k, search.determinant});
+                       program.add(l, {"trace", loop, k, search.trace});
+                     });
+  }
+
+  /// ("found", k), two by two, in the order of their leaves.
+  Program found() const {
+    return by_search("found", Held::kValues,
+                     [](LoopLowering& program, const auto& search, std::size_t l, int k) {
+                       for (int i = 0; i < 2; ++i)
+                         program.add(l, {"found", 2 * k + i, -1, search.found[static_cast<std::size_t>(i)]});
+                     });
+  }
+
+  /// ("misfit", k) and ("inverse", k, 0 or 1), in the same order.
+  Program searches() const {
+    return by_search(
+        "searches", Held::kLeaves, [](LoopLowering& program, const auto& search, std::size_t l, int k) {
+          for (int i = 0; i < 2; ++i) {
+            const auto row = static_cast<std::size_t>(i);
+            program.add(l, {"misfit", 2 * k + i, -1, search.misfit[row]});
+            for (int j = 0; j < 2; ++j)
+              program.add(l, {"inverse", 2 * k + i, j, search.inverse[row][static_cast<std::size_t>(j)]});
+          }
+        });
   }
 
   Program spans() const {
@@ -148,8 +185,8 @@ class Lowered {
   }
 
   template <class Add>
-  Program by_row(const char* name, const Add& add) const {
-    LoopLowering program(mechanism_, equations_);
+  Program by_row(const char* name, const Add& add, Held held = Held::kValues) const {
+    LoopLowering program(mechanism_, equations_, held);
     int row = 0;
     for (std::size_t l = 0; l < equations_.closures.size(); ++l)
       for (std::size_t r = 0; r < equations_.closures[l].rows.size(); ++r)
@@ -157,104 +194,19 @@ class Lowered {
     return program.finish(name);
   }
 
+  /// Searches are numbered as what they hold.
+  template <class Add>
+  Program by_search(const char* name, Held held, const Add& add) const {
+    LoopLowering program(mechanism_, equations_, held);
+    int number = 0;
+    for (std::size_t l = 0; l < equations_.closures.size(); ++l)
+      for (const dynamics::Search& search : equations_.closures[l].searches)
+        add(program, search, l, number++);
+    return program.finish(name);
+  }
+
   const model::Mechanism& mechanism_;
   const dynamics::Equations& equations_;
-};
-
-/// A builder that holds g and differentiates it.
-class Differentiation {
- public:
-  Differentiation(const model::Tangent& tangent, const Program& value, const Program& velocities,
-                  const Program& leading, EliminationOrder order)
-      : tangent_(tangent), order_(order), g_(ir::insert(builder_, value)) {
-    const std::size_t n = tangent.scalars.size() + 3 * tangent.quaternions.size();
-    const std::vector<Signed> rates = ir::insert(builder_, leading);
-    for (std::size_t k = 0; k < rates.size(); ++k)
-      leading_.push_back(
-          {builder_.leaf(LeafKind::kVelocity, support::subscript(leading.outputs[k].row)), 0, rates[k]});
-    std::vector<Seed> seeds = lowering::displacement_seeds(builder_, tangent);
-    add_time(seeds, n);
-    velocities_ = n;
-    G_ = ir::differentiate(builder_, g_, seeds, order);
-    add_velocities(velocities);
-  }
-
-  Program jacobian() {
-    for (const auto& [at, value] : G_)
-      if (at.second < velocities_)
-        builder_.output("G", static_cast<int>(at.first), static_cast<int>(at.second), value);
-      else
-        builder_.output("g_t", static_cast<int>(at.first), -1, value);
-    return finish("closure_jacobian");
-  }
-
-  Program rates() {
-    std::vector<Signed> rate(g_.size(), builder_.literal(0));
-    for (const auto& [at, value] : G_) {
-      const bool by_time = at.second == velocities_;
-      const Signed term =
-          by_time ? value : builder_.multiply(value, builder_.leaf(LeafKind::kVelocity, at.second));
-      rate[at.first] = builder_.add(rate[at.first], term);
-    }
-    const JacobianEntries along = ir::differentiate(builder_, rate, path_seeds(), order_);
-    for (std::size_t r = 0; r < rate.size(); ++r) {
-      builder_.output("rate", static_cast<int>(r), -1, rate[r]);
-      const auto it = along.find({r, 0});
-      builder_.output("gamma", static_cast<int>(r), -1, it == along.end() ? builder_.literal(0) : it->second);
-    }
-    return finish("closure_rates");
-  }
-
- private:
-  /// What moves on at z = 0, by the column of time: t, and states that motions follow.
-  void add_time(std::vector<Seed>& seeds, std::size_t column) {
-    seeds.push_back({builder_.leaf(LeafKind::kTime, 0), column, builder_.literal(1)});
-    for (const Seed& state : leading_) seeds.push_back({state.leaf, column, state.partial});
-  }
-
-  /// G and g_t of rows that are linear in z and have no g.
-  void add_velocities(const Program& velocities) {
-    const std::vector<Signed> moving = ir::insert(builder_, velocities);
-    const std::vector<Signed> resting =
-        ir::insert(builder_, velocities, [this](LeafKind kind, std::size_t k) {
-          const bool moves = kind == LeafKind::kVelocity && k < velocities_;  // states stay
-          return moves ? std::optional(builder_.literal(0)) : std::nullopt;
-        });
-    std::vector<Seed> seeds;
-    for (std::size_t k = 0; k < velocities_; ++k)
-      seeds.push_back({builder_.leaf(LeafKind::kVelocity, k), k, builder_.literal(1)});
-    const JacobianEntries entries = ir::differentiate(builder_, moving, seeds, order_);
-    const auto row = [&](std::size_t k) { return support::subscript(velocities.outputs[k].row); };
-    for (const auto& [at, value] : entries) G_[{row(at.first), at.second}] = value;
-    for (std::size_t k = 0; k < resting.size(); ++k)
-      if (!builder_.is_literal(resting[k], 0)) G_[{row(k), velocities_}] = resting[k];
-  }
-
-  /// y and t moving along with the state, velocities held: the one column is time.
-  std::vector<Seed> path_seeds() {
-    std::vector<Seed> seeds;
-    for (const Seed& seed : lowering::displacement_seeds(builder_, tangent_)) {
-      const Signed rate = builder_.multiply(seed.partial, builder_.leaf(LeafKind::kVelocity, seed.column));
-      const auto same = std::find_if(seeds.begin(), seeds.end(),
-                                     [&](const Seed& s) { return s.leaf.value == seed.leaf.value; });
-      if (same == seeds.end())
-        seeds.push_back({seed.leaf, 0, rate});
-      else
-        same->partial = builder_.add(same->partial, rate);
-    }
-    add_time(seeds, 0);
-    return seeds;
-  }
-
-  Program finish(const char* name) { return passes::remove_dead_code(builder_.finish(name)); }
-
-  const model::Tangent& tangent_;
-  EliminationOrder order_;
-  Builder builder_;
-  std::vector<Signed> g_;
-  std::vector<Seed> leading_;  ///< states that motions follow, with their rates
-  std::size_t velocities_ = 0;
-  JacobianEntries G_;
 };
 
 /// One program in two ways, the cheaper one first; the other only where there is one.
@@ -277,15 +229,15 @@ std::vector<ConstraintPrograms> constraint_programs(const model::Mechanism& mech
   programs.velocities = lowered.velocities();
   programs.senses = lowered.senses();
   programs.spans = lowered.spans();
-  const Program leading = lowered.leading();
-  const auto differentiation = [&](EliminationOrder o) {
-    return Differentiation(tangent, programs.value, programs.velocities, leading, o);
-  };
-  const std::vector<Program> jacobians =
-      in_order(lowering::cheapest([&](EliminationOrder o) { return differentiation(o).jacobian(); }),
-               lowered.jacobian());
-  const std::vector<Program> rates = in_order(
-      lowering::cheapest([&](EliminationOrder o) { return differentiation(o).rates(); }), lowered.rates());
+  programs.misses = lowered.misses();
+  const RowPrograms rows = {lowered.values(Held::kLeaves), lowered.velocities(Held::kLeaves),
+                            lowered.leading(), lowered.searches(), lowered.found()};
+  const std::vector<Program> jacobians = in_order(
+      lowering::cheapest([&](EliminationOrder o) { return differentiated_jacobian(tangent, rows, o); }),
+      lowered.jacobian());
+  const std::vector<Program> rates =
+      in_order(lowering::cheapest([&](EliminationOrder o) { return differentiated_rates(tangent, rows, o); }),
+               lowered.rates());
   std::vector<ConstraintPrograms> list;
   for (const Program& jacobian : jacobians)
     for (const Program& rate : rates) {

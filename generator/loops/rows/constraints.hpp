@@ -17,8 +17,9 @@ struct ConstraintPrograms {
   ir::Program
       spans;  ///< of rods: ("span", row, axis) from end to end, axes of the carrier's link, and ("length", row)
   ir::Program velocities;  ///< ("v", row), rows that bind velocities alone: their G z + g_t; their g is 0
-  ir::Program jacobian;    ///< ("G", row, velocity), ("g_t", row)
-  ir::Program rates;       ///< ("rate", row) and ("gamma", row), every row
+  ir::Program misses;  ///< ("miss", loop, number), ("determinant", …), ("trace", …): of dynamics::Search
+  ir::Program jacobian;  ///< ("G", row, velocity), ("g_t", row)
+  ir::Program rates;     ///< ("rate", row) and ("gamma", row), every row
 };
 
 /// A loop does not feel how its carrier moves: the coordinates inward of it are taken as zero in its rows.

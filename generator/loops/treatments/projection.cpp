@@ -1,5 +1,6 @@
 #include "loops/treatments/projection.hpp"
 
+#include "ir/compose.hpp"
 #include "loops/treatments/multipliers.hpp"
 #include "passes/rewrite.hpp"
 
@@ -48,6 +49,13 @@ ir::Program projection_program(const LoopSystem& system) {
                    builder.add(builder.leaf(LeafKind::kVelocity, k), change[k]));
     opening = builder.add(opening, builder.multiply(d[k], d[k]));
   }
+  const ir::Program& misses = system.constraints.misses;
+  const Column found = ir::insert(builder, misses);
+  for (std::size_t k = 0; k < found.size(); ++k)
+    opening = builder.add(
+        opening, misses.outputs[k].name == "miss"
+                     ? found[k]
+                     : builder.function(support::Function::kWhereNegative, found[k], builder.literal(1)));
   const Signed share = builder.literal(1 / system.plan.determinant);
   builder.output("regularity", -1, -1, builder.multiply(share, solver.determinant()));
   builder.output("opening", -1, -1, opening);

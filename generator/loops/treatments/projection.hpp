@@ -12,7 +12,8 @@ namespace jourdain::loops {
 ///   ("z", entry)   z − M⁻¹ Gᵀ S⁻¹ (G₁ z + g_t), G₁ and g_t at the new y, the rest at the old one (the difference
 ///                  is of second order)
 ///   "regularity"   det S / LoopPlan::determinant
-///   "opening"      dᵀ d
+///   "opening"      dᵀ d, and what points that are looked for may be missed by: squares of m and rad; more than 1 where
+///                  those found are not the nearest
 ir::Program projection_program(const LoopSystem& system);
 
 }  // namespace jourdain::loops

@@ -19,10 +19,8 @@ Variable argument(std::size_t k) { return {.kind = Variable::Kind::kArgument, .c
 
 /// x, y, z and t.
 Scope scope_of_height() {
-  Scope scope = time_scope();
-  constexpr const char* kNames[] = {"x", "y", "z"};
-  for (std::size_t k = 0; k < 3; ++k)
-    scope.push_back({kNames[k], argument(k), Measure::variable(needed::kLength)});
+  Scope scope = scope_of_places();
+  scope.insert(scope.end(), time_scope().begin(), time_scope().end());
   return scope;
 }
 
@@ -34,38 +32,48 @@ Vector3 constant(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
 }  // namespace
 
+Scope scope_of_places() {
+  Scope scope;
+  constexpr const char* kNames[] = {"x", "y", "z"};
+  for (std::size_t k = 0; k < 3; ++k)
+    scope.push_back({kNames[k], argument(k), Measure::variable(needed::kLength)});
+  return scope;
+}
+
+std::optional<int> read_approaches(const TomlTable& table, int least) {
+  const char* key = "approaches";
+  if (!table.has(key)) return {};
+  if (!table.has("height")) {
+    table.error(key, fmt::format("{} has no 'height'", table.what()), "a plane is touched at once");
+    return {};
+  }
+  const std::size_t mark = table.file().error_count();
+  const double number = table.file().constant(*table.find(key), {table.quoted(key), needed::kPure});
+  if (table.file().error_count() != mark) return {};
+  if (number >= least && number <= 20 && number == std::floor(number)) return static_cast<int>(number);
+  table.error(key, fmt::format("{} is not a whole number from {} to 20", table.quoted(key), least));
+  return {};
+}
+
 Ground::Ground(const TomlTable& table, std::string hint_for_normal)
     : n_(unit_direction(table, "normal", {0, 0, 1}, std::move(hint_for_normal))),
       o_(table.vector("point", needed::kLength, {0.0, 0.0, 0.0})),
       a_(constant(slide_directions(n_)[0])),
       b_(constant(slide_directions(n_)[1])) {
-  Expression written = table.function("height", needed::kLength, scope_of_height());
-  refuse_calls(table, "height", written);
-  if (written.calls(support::Function::kCall)) written = 0.0;
+  written_ = table.function("height", needed::kLength, scope_of_height());
+  refuse_calls(table, "height", written_);
+  if (written_.calls(support::Function::kCall)) written_ = 0.0;
   const Vector3 n = constant(n_);
   const Expression level = dot(n, o_);
   Vector3 place;
   for (std::size_t k = 0; k < 3; ++k)
     place[k] = plus(times(n[k], level), plus(times(a_[k], Expression::variable(argument(0))),
                                              times(b_[k], Expression::variable(argument(1)))));
-  height_ = with_arguments(written, place);
+  height_ = with_arguments(written_, place);
   slope_a_ = derivative(height_, argument(0));
   slope_b_ = derivative(height_, argument(1));
   rise_ = derivative(height_, Variable{.kind = Variable::Kind::kTime});
-  read_approaches(table);
-}
-
-void Ground::read_approaches(const TomlTable& table) {
-  const char* key = "approaches";
-  if (!table.has(key)) return;
-  if (!table.has("height"))
-    return table.error(key, fmt::format("{} has no 'height'", table.what()), "a plane is touched at once");
-  const std::size_t mark = table.file().error_count();
-  const double number = table.file().constant(*table.find(key), {table.quoted(key), needed::kPure});
-  if (table.file().error_count() != mark) return;
-  if (!(number >= 0 && number <= 20) || number != std::floor(number))
-    return table.error(key, fmt::format("{} is not a whole number from 0 to 20", table.quoted(key)));
-  approaches_ = static_cast<int>(number);
+  approaches_ = read_approaches(table, 0).value_or(approaches_);
 }
 
 Vector3 Ground::normal_at(const std::array<Expression, 2>& place) const {

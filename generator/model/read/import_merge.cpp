@@ -199,6 +199,7 @@ bool merge(Mechanism& mechanism, Mechanism part, const Merge& how) {
   append(mechanism.outputs, std::move(part.outputs));
   append(mechanism.kinematics, std::move(part.kinematics));
   append(mechanism.loops, std::move(part.loops));
+  append(mechanism.grounds, std::move(part.grounds));
   for_each_force_list(mechanism, [&part](auto& list) {
     using Element = typename std::remove_reference_t<decltype(list)>::value_type;
     append(list, std::move(list_of<Element>(part)));

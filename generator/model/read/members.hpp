@@ -23,7 +23,7 @@ class Members {
   void of(Mechanism& mechanism) {
     each(mechanism.gravity, mechanism.parameters, mechanism.derived, mechanism.bodies, mechanism.joints,
          mechanism.frames, mechanism.inputs, mechanism.outputs, mechanism.kinematics, mechanism.loops,
-         mechanism.loop_options, mechanism.where);
+         mechanism.grounds, mechanism.loop_options, mechanism.where);
     for_each_force_list(mechanism, [this](auto& list) { this->one(list); });
   }
 
@@ -118,8 +118,14 @@ class Members {
     each(name, frame, axes, quantities, where);
   }
   void one(Loop& loop) {
-    auto& [name, type, from, to, axis, to_axis, length, residual, radii, follower, where, to_where] = loop;
-    each(name, type, from, to, axis, to_axis, length, residual, radii, follower, where, to_where);
+    auto& [name, type, from, to, axis, to_axis, length, residual, radii, height, approaches, follower, where,
+           to_where] = loop;
+    each(name, type, from, to, axis, to_axis, length, residual, radii, height, approaches, follower, where,
+         to_where);
+  }
+  void one(DrawnGround& ground) {
+    auto& [frame, normal, point, height] = ground;
+    each(frame, normal, point, height);
   }
   void one(ScalarCoordinate& scalar) {
     auto& [joint, coordinate] = scalar;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "model/loop_kinds.hpp"
+#include "model/read/ground.hpp"
 #include "model/read/keys.hpp"
 #include "model/read/toml_frame.hpp"
 #include "model/read/toml_names.hpp"
@@ -16,7 +17,8 @@ namespace {
 
 using support::shown;
 
-const std::vector<std::string> kOwnKeys{"velocity", "frame", "axis", "radius", "radii", "plane", "normal"};
+const std::vector<std::string> kOwnKeys{"velocity", "frame",  "axis",   "radius",    "radii",
+                                        "plane",    "normal", "height", "approaches"};
 
 /// The type that the word stands for; as the first where it is none.
 LoopType constraint_type(const std::string& word) {
@@ -64,6 +66,7 @@ class ConstraintReader {
     if (kind_.takes("normal")) loop.axis = direction("normal", {0, 0, 1});
     if (kind_.takes("radii")) read_radii(loop);
     if (kind_.takes("radius")) loop.length = table_.positive("radius", needed::kLength);
+    if (kind_.takes("height")) read_height(loop);
     if (file_.error_count() != mark) return {};
     return loop;
   }
@@ -84,6 +87,32 @@ class ConstraintReader {
                             mechanism);
     refuse_kinks(table_, "velocity", loop.residual);
     refuse_calls(table_, "velocity", loop.residual);
+  }
+
+  /// Of ground that stands still in `plane`.
+  void read_height(Loop& loop) {
+    Scope scope = scope_of_places();
+    for (ScopeEntry entry : time_scope()) {
+      entry.refusal =
+          "what rolls, rolls on ground that stands still in 'plane', which may be on a body that moves";
+      scope.push_back(entry);
+    }
+    const std::size_t mark = file_.error_count();
+    const auto height = [&] { return table_.function("height", needed::kLength, scope); };
+    loop.height = height();
+    if (file_.error_count() != mark) return;
+    using Smooth = Callable::Smooth;
+    if (file_.with_smooth_callables(Smooth::kEverywhere, height).has_kinks()) {
+      const Expression within = file_.with_smooth_callables(Smooth::kWithinEnds, height);
+      refuse_kinks(table_, "height", within);
+      if (!within.has_kinks())
+        file_.diagnostics().warning(
+            table_.where("height"),
+            fmt::format("{} has a kink where a table ends, where velocities jump", table_.quoted("height")),
+            "stay inside; a curve may go on beyond its ends: beyond = \"extend\"");
+    }
+    refuse_calls(table_, "height", loop.height);
+    loop.approaches = read_approaches(table_, 1).value_or(loop.approaches);
   }
 
   void read_radii(Loop& loop) {

@@ -97,6 +97,7 @@ class ContactReader {
     }
     load.touch = {settled(depth, mechanism_), stiffness, exponent};
     mechanism_.loads.push_back(load);
+    mechanism_.grounds.push_back(ground.drawn(*frame));
   }
 
  private:

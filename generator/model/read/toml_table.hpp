@@ -71,6 +71,8 @@ class TomlFile {
   /// A table or function that expressions may call from now on.
   void declare(Callable callable) { callables_.push_back(std::move(callable)); }
   const std::vector<Callable>& callables() const { return callables_; }
+  /// What `read` makes where callables that are at least so smooth are sums of their arguments.
+  Expression with_smooth_callables(Callable::Smooth at_least, const std::function<Expression()>& read);
   /// A signal that expressions may name from now on.
   void declare(Signal signal) { signals_.push_back(std::move(signal)); }
   const std::vector<Signal>& signals() const { return signals_; }

@@ -74,6 +74,7 @@ class TyreReader {
     first_state_ = mechanism_.states.size();
     if (!declare("_longitudinal") || !declare("_lateral")) return;
 
+    mechanism_.grounds.push_back(ground.drawn(*frame));
     const Vector3 p = frame_components(Variable::Kind::kFramePosition, *frame),
                   w = frame_components(Variable::Kind::kFrameWorldSpin, *frame);
     const Vector3 a = minus(frame_components(Variable::Kind::kFramePosition, *axle), p);

@@ -53,7 +53,7 @@ Closed projected(const LoopScene& scene, const State& open) {
   result.y = moved[LeafKind::kPosition];
   result.z = to_list(to_exact(z) - back * schur.solved(rate));
   result.regularity = schur.determinant() * ScaledReal(1 / plan.determinant);
-  result.opening = change.squaredNorm();
+  result.opening = change.squaredNorm() + scene.closure.missed(open);
   return result;
 }
 

@@ -39,6 +39,10 @@ ExactVector ExactClosure::g(const ir::LeafValues<ScaledReal>& state) const {
   return to_exact(dynamics::closure_values(closures_, leaves_at(state)));
 }
 
+ScaledReal ExactClosure::missed(const ir::LeafValues<ScaledReal>& state) const {
+  return dynamics::closure_misses(closures_, leaves_at(state));
+}
+
 std::vector<ScaledReal> ExactClosure::displaced(std::vector<ScaledReal> y, const ExactVector& d) const {
   for (const model::Tangent::Scalar& s : tangent_.scalars) y[s.position] += d[at(s.velocity)];
   for (const model::Tangent::Scalar& s : tangent_.quaternions) {

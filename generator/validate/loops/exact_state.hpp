@@ -29,6 +29,8 @@ class ExactClosure {
   dynamics::ClosureMotion motion(const ir::LeafValues<ScaledReal>& state,
                                  const std::vector<ScaledReal>& z) const;
   ExactVector g(const ir::LeafValues<ScaledReal>& state) const;
+  /// Square of what points that are looked for may be missed by.
+  ScaledReal missed(const ir::LeafValues<ScaledReal>& state) const;
 
   /// The positions moved by a displacement of all velocities: q ⊗ (1, d/2), brought to unit length.
   std::vector<ScaledReal> displaced(std::vector<ScaledReal> y, const ExactVector& displacement) const;

@@ -1,0 +1,173 @@
+#include "loops/rows/row_derivatives.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "ir/compose.hpp"
+#include "lowering/cheapest_elimination.hpp"
+#include "passes/rewrite.hpp"
+#include "support/matrix_index.hpp"
+
+namespace jourdain::loops {
+
+using ir::Builder;
+using ir::EliminationOrder;
+using ir::JacobianEntries;
+using ir::LeafKind;
+using ir::Program;
+using ir::Seed;
+using ir::Signed;
+
+namespace {
+
+/// A builder that holds g and differentiates it.
+class Differentiation {
+ public:
+  Differentiation(const model::Tangent& tangent, const RowPrograms& rows, EliminationOrder order)
+      : tangent_(tangent), order_(order), rows_(rows), g_(ir::insert(builder_, rows.value)) {
+    const std::size_t n = tangent.scalars.size() + 3 * tangent.quaternions.size();
+    const std::vector<Signed> rates = ir::insert(builder_, rows.leading);
+    for (std::size_t k = 0; k < rates.size(); ++k)
+      leading_.push_back(
+          {builder_.leaf(LeafKind::kVelocity, support::subscript(rows.leading.outputs[k].row)), 0, rates[k]});
+    std::vector<Seed> seeds = lowering::displacement_seeds(builder_, tangent);
+    add_time(seeds, n);
+    velocities_ = n;
+    G_ = ir::differentiate(builder_, g_, seeds, order);
+    add_velocities(rows.velocities);
+  }
+
+  Program jacobian() {
+    for (const auto& [at, value] : G_)
+      if (at.second < velocities_)
+        builder_.output("G", static_cast<int>(at.first), static_cast<int>(at.second), value);
+      else
+        builder_.output("g_t", static_cast<int>(at.first), -1, value);
+    return finish("closure_jacobian");
+  }
+
+  Program rates() {
+    std::vector<Signed> rate(g_.size(), builder_.literal(0));
+    for (const auto& [at, value] : G_) {
+      const bool by_time = at.second == velocities_;
+      const Signed term =
+          by_time ? value : builder_.multiply(value, builder_.leaf(LeafKind::kVelocity, at.second));
+      rate[at.first] = builder_.add(rate[at.first], term);
+    }
+    std::vector<Seed> path = path_seeds();
+    const std::vector<Seed> found = found_seeds(path);
+    path.insert(path.end(), found.begin(), found.end());
+    const JacobianEntries along = ir::differentiate(builder_, rate, path, order_);
+    for (std::size_t r = 0; r < rate.size(); ++r) {
+      builder_.output("rate", static_cast<int>(r), -1, rate[r]);
+      const auto it = along.find({r, 0});
+      builder_.output("gamma", static_cast<int>(r), -1, it == along.end() ? builder_.literal(0) : it->second);
+    }
+    return finish("closure_rates");
+  }
+
+ private:
+  /// What moves on at z = 0, by the column of time: t, and states that motions follow.
+  void add_time(std::vector<Seed>& seeds, std::size_t column) {
+    seeds.push_back({builder_.leaf(LeafKind::kTime, 0), column, builder_.literal(1)});
+    for (const Seed& state : leading_) seeds.push_back({state.leaf, column, state.partial});
+  }
+
+  /// G and g_t of rows that are linear in z and have no g.
+  void add_velocities(const Program& velocities) {
+    const std::vector<Signed> moving = ir::insert(builder_, velocities);
+    const std::vector<Signed> resting =
+        ir::insert(builder_, velocities, [this](LeafKind kind, std::size_t k) {
+          const bool moves = kind == LeafKind::kVelocity && k < velocities_;  // states stay
+          return moves ? std::optional(builder_.literal(0)) : std::nullopt;
+        });
+    std::vector<Seed> seeds;
+    for (std::size_t k = 0; k < velocities_; ++k)
+      seeds.push_back({builder_.leaf(LeafKind::kVelocity, k), k, builder_.literal(1)});
+    const JacobianEntries entries = ir::differentiate(builder_, moving, seeds, order_);
+    const auto row = [&](std::size_t k) { return support::subscript(velocities.outputs[k].row); };
+    for (const auto& [at, value] : entries) G_[{row(at.first), at.second}] = value;
+    for (std::size_t k = 0; k < resting.size(); ++k)
+      if (!builder_.is_literal(resting[k], 0)) G_[{row(k), velocities_}] = resting[k];
+  }
+
+  /// y and t moving along with the state, velocities held: the one column is time.
+  std::vector<Seed> path_seeds() {
+    std::vector<Seed> seeds;
+    for (const Seed& seed : lowering::displacement_seeds(builder_, tangent_)) {
+      const Signed rate = builder_.multiply(seed.partial, builder_.leaf(LeafKind::kVelocity, seed.column));
+      const auto same = std::find_if(seeds.begin(), seeds.end(),
+                                     [&](const Seed& s) { return s.leaf.value == seed.leaf.value; });
+      if (same == seeds.end())
+        seeds.push_back({seed.leaf, 0, rate});
+      else
+        same->partial = builder_.add(same->partial, rate);
+    }
+    add_time(seeds, 0);
+    return seeds;
+  }
+
+  /// Points that are looked for move as their misfits stay at zero.
+  std::vector<Seed> found_seeds(const std::vector<Seed>& path) {
+    const std::vector<Signed> values = ir::insert(builder_, rows_.searches);
+    std::vector<Signed> misfits;
+    for (std::size_t k = 0; k < values.size(); ++k)
+      if (rows_.searches.outputs[k].name == "misfit") misfits.push_back(values[k]);
+    const JacobianEntries rates = ir::differentiate(builder_, misfits, path, order_);
+    const auto rate = [&](std::size_t k) {
+      const auto it = rates.find({k, 0});
+      return it == rates.end() ? builder_.literal(0) : it->second;
+    };
+    std::vector<Signed> moves(misfits.size(), builder_.literal(0));
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const ir::Output& output = rows_.searches.outputs[k];
+      if (output.name != "inverse") continue;
+      const std::size_t row = support::subscript(output.row),
+                        other = row / 2 * 2 + support::subscript(output.column);
+      moves[row] = builder_.add(moves[row], builder_.multiply(values[k], rate(other)));
+    }
+    std::vector<Seed> seeds;
+    for (std::size_t k = 0; k < moves.size(); ++k)
+      seeds.push_back({builder_.leaf(LeafKind::kHeld, k), 0, moves[k]});
+    return seeds;
+  }
+
+  /// With the points found in place of those held.
+  Program finish(const char* name) {
+    const Program program = passes::remove_dead_code(builder_.finish(name));
+    if (rows_.found.outputs.empty()) return program;
+    Builder whole;
+    const std::vector<Signed> found = ir::insert(whole, rows_.found);
+    const std::vector<Signed> values = ir::insert(whole, program, [&](LeafKind kind, std::size_t k) {
+      return kind == LeafKind::kHeld ? std::optional(found[k]) : std::nullopt;
+    });
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const ir::Output& output = program.outputs[k];
+      whole.output(output.name, output.row, output.column, values[k]);
+    }
+    return passes::remove_dead_code(whole.finish(name));
+  }
+
+  const model::Tangent& tangent_;
+  EliminationOrder order_;
+  const RowPrograms& rows_;
+  Builder builder_;
+  std::vector<Signed> g_;
+  std::vector<Seed> leading_;  ///< states that motions follow, with their rates
+  std::size_t velocities_ = 0;
+  JacobianEntries G_;
+};
+
+}  // namespace
+
+Program differentiated_jacobian(const model::Tangent& tangent, const RowPrograms& rows,
+                                EliminationOrder order) {
+  return Differentiation(tangent, rows, order).jacobian();
+}
+
+Program differentiated_rates(const model::Tangent& tangent, const RowPrograms& rows, EliminationOrder order) {
+  return Differentiation(tangent, rows, order).rates();
+}
+
+}  // namespace jourdain::loops
