@@ -323,7 +323,7 @@ TEST(LoopOutputs, AgreeForWhatRolls) {
         }))
       compared += compare(mechanism, LoopTreatment::kMultipliers, seed);
   };
-  for (const char* name : {"bicycle", "rolling_disc", "sleigh"})
+  for (const char* name : {"bicycle", "rolling_disc", "rolling_hills", "sleigh"})
     add(read_model(model_path(fmt::format("{}.toml", name))), 1);
   const std::size_t of_models = compared;
   for (std::uint64_t seed = 0; seed < cases(60); ++seed) add(random_rolling(seed), seed);
