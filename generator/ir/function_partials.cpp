@@ -9,7 +9,7 @@ std::pair<Signed, Signed> partials(Builder& builder, Function function, Signed a
   const Signed zero = builder.literal(0), one = builder.literal(1);
   switch (function) {
     case Function::kAtan2: {
-      const Signed square = builder.add(builder.multiply(a, a), builder.multiply(b, b));
+      const Signed of_b = builder.multiply(b, b), square = builder.add(builder.multiply(a, a), of_b);
       const Signed of_a = builder.divide(b, square);
       return {of_a, by_b ? -builder.divide(a, square) : zero};
     }

@@ -170,7 +170,8 @@ class Graph {
   Signed inside(Signed value, Signed factor) {
     const Parts& known = parts(value.value);
     if (known.empty()) {
-      const Signed some = builder_.subtract(some_part_is_taken(value.value), builder_.literal(0.5));
+      const Signed half = builder_.literal(0.5),
+                   some = builder_.subtract(some_part_is_taken(value.value), half);
       const Signed needed = builder_.function(support::Function::kWhereNotNegative, some, factor);
       return builder_.multiply(value, needed);
     }
@@ -252,12 +253,14 @@ class Graph {
     if (is_taken_.at(value.value)) {
       const Node node = builder_.program()[value];
       const auto of = [this](ValueId v) { return some_part_is_taken(v); };
-      if (node.op == Op::kAdd || node.op == Op::kSubtract)
-        result = builder_.function(support::Function::kMax, of(node.a), of(node.b));
-      else if (node.op == Op::kMultiply || node.op == Op::kNegate)
+      if (node.op == Op::kAdd || node.op == Op::kSubtract) {
+        const Signed of_b = of(node.b);
+        result = builder_.function(support::Function::kMax, of(node.a), of_b);
+      } else if (node.op == Op::kMultiply || node.op == Op::kNegate) {
         result = of(is_taken_[node.a.value] ? node.a : node.b);
-      else
+      } else {
         result = builder_.function(function_of(node.op), Signed{node.a}, of(node.b));
+      }
     }
     look_at_new_values();
     return some_.emplace(value.value, result).first->second;

@@ -51,8 +51,12 @@ class Splitting {
       const Pair a = pair_of(node.a);
       Pair b = pair_of(node.b);
       if (node.op == Op::kSubtract) b.sine = -b.sine;
-      pair.sine = builder.add(builder.multiply(a.sine, b.cosine), builder.multiply(a.cosine, b.sine));
-      pair.cosine = builder.subtract(builder.multiply(a.cosine, b.cosine), builder.multiply(a.sine, b.sine));
+      // One after the other: with every compiler in the same order.
+      const Signed across = builder.multiply(a.cosine, b.sine), along = builder.multiply(a.sine, b.cosine);
+      pair.sine = builder.add(along, across);
+      const Signed of_sines = builder.multiply(a.sine, b.sine),
+                   of_cosines = builder.multiply(a.cosine, b.cosine);
+      pair.cosine = builder.subtract(of_cosines, of_sines);
     } else {
       pair = {builder.unary(Op::kSin, copy_[id]), builder.unary(Op::kCos, copy_[id])};
     }

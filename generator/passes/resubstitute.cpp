@@ -205,10 +205,14 @@ class Substitution {
     ir::Builder& builder = copy.builder();
     const auto copied = [&](Signed value) { return value.negative ? -copy[value.value] : copy[value.value]; };
     switch (definition.kind) {
-      case Definition::Kind::kSum:
-        return builder.add(copied(definition.x), copied(definition.y));
-      case Definition::Kind::kProduct:
-        return builder.multiply(copied(definition.x), copied(definition.y));
+      case Definition::Kind::kSum: {
+        const Signed y = copied(definition.y);
+        return builder.add(copied(definition.x), y);
+      }
+      case Definition::Kind::kProduct: {
+        const Signed y = copied(definition.y);
+        return builder.multiply(copied(definition.x), y);
+      }
       case Definition::Kind::kOwn:
       case Definition::Kind::kLine:
       case Definition::Kind::kNumber:

@@ -169,7 +169,7 @@ class Closing {
     const std::vector<Along> parameters(parts_.parameters.begin(), parts_.parameters.end());
     Ground result;
     for (std::size_t i = 0; i < 2; ++i) {
-      const Along height = loop.height.template evaluate<Along>(
+      const auto height = loop.height.template evaluate<Along>(
           parameters, [](double literal) { return Along(T(Scalar(literal))); },
           [&](const model::Variable& v) -> Along {
             const auto k = Eigen::Index(v.component);

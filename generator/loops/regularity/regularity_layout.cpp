@@ -116,7 +116,8 @@ class Layout {
       ir::Signed sum = builder.literal(-0.5);
       for (std::size_t k = 0; k < 4; ++k) {
         const ir::Signed entry = builder.leaf(LeafKind::kPosition, w + k);
-        sum = builder.add(sum, builder.multiply(builder.literal(0.5), builder.multiply(entry, entry)));
+        const ir::Signed square = builder.multiply(entry, entry);
+        sum = builder.add(sum, builder.multiply(builder.literal(0.5), square));
       }
       values.push_back(sum);
     }

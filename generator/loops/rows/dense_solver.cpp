@@ -47,8 +47,8 @@ Signed DenseSolver::minor(std::size_t row, std::size_t column) const {
     return row == column ? entry : -entry;
   }
   const std::size_t r1 = (row + 1) % 3, r2 = (row + 2) % 3, c1 = (column + 1) % 3, c2 = (column + 2) % 3;
-  return builder_.subtract(builder_.multiply(A_[r1][c1], A_[r2][c2]),
-                           builder_.multiply(A_[r1][c2], A_[r2][c1]));
+  const Signed across = builder_.multiply(A_[r1][c2], A_[r2][c1]);
+  return builder_.subtract(builder_.multiply(A_[r1][c1], A_[r2][c2]), across);
 }
 
 void DenseSolver::invert() {
@@ -70,7 +70,8 @@ void DenseSolver::orthogonalise() {
       R_[i][j] = builder_.multiply(product(Q_[i], v), inverse_squares_[i]);
       subtract(v, R_[i][j], Q_[i]);
     }
-    inverse_squares_.push_back(builder_.divide(builder_.literal(1), product(v, v)));
+    const Signed square = product(v, v);
+    inverse_squares_.push_back(builder_.divide(builder_.literal(1), square));
     Q_.push_back(std::move(v));
   }
 }

@@ -94,7 +94,8 @@ Column displaced(Builder& builder, const model::Tangent& tangent, const Column& 
     }
     Signed square = builder.literal(0);
     for (const Signed& entry : p) square = builder.add(square, builder.multiply(entry, entry));
-    const Signed factor = builder.divide(builder.literal(1), builder.unary(ir::Op::kSqrt, square));
+    const Signed length = builder.unary(ir::Op::kSqrt, square),
+                 factor = builder.divide(builder.literal(1), length);
     for (std::size_t k = 0; k < 4; ++k) moved[s.position + k] = builder.multiply(factor, p[k]);
   }
   return moved;

@@ -135,7 +135,7 @@ class Differentiation {
 
   /// With the points found in place of those held.
   Program finish(const char* name) {
-    const Program program = passes::remove_dead_code(builder_.finish(name));
+    Program program = passes::remove_dead_code(builder_.finish(name));
     if (rows_.found.outputs.empty()) return program;
     Builder whole;
     const std::vector<Signed> found = ir::insert(whole, rows_.found);

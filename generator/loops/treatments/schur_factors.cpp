@@ -82,7 +82,8 @@ void SchurFactors::invert_shared(const std::vector<Column>& S) {
   for (std::size_t i = 0; i < sharing_.rows.size(); ++i)
     trace = builder_.add(trace, builder_.multiply(weight(i), S[sharing_.rows[i]][sharing_.rows[i]]));
   trace_ = builder_.add(trace, delta);
-  const Signed size = builder_.add(builder_.multiply(trace, trace_), builder_.multiply(delta, delta)),
+  const Signed square = builder_.multiply(delta, delta),
+               size = builder_.add(builder_.multiply(trace, trace_), square),
                inverse = builder_.divide(builder_.literal(1), size);
   for (std::size_t i = 0; i < sharing_.rows.size(); ++i) {
     inverse_.emplace_back();

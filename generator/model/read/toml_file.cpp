@@ -49,7 +49,7 @@ Expression TomlFile::with_smooth_callables(Callable::Smooth at_least,
         for (const Expression& argument : arguments) sum = plus(sum, argument);
         return sum;
       };
-  const Expression result = read();
+  Expression result = read();
   callables_ = kept;
   return result;
 }
