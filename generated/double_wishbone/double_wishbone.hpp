@@ -30,7 +30,7 @@
 // Checked before this file was written
 // - validated at 8 states: in 77 digits everything below agrees to 1e-40 of its scale (what rounding can move
 //   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 4.7e-16 of the
-//   sum of absolute terms, other errors are 1.1e-15 of their scale; cond(M) up to 1.0e+00
+//   sum of absolute terms, other errors are 1.0e-15 of their scale; cond(M) up to 1.0e+00
 // - the symbolic equations (M, k_bar, q_bar, Z z, energies, outputs): the numeric reference
 // - initial_state: the assembled start
 // - position_rate: Z z of the equations, z as the loops allow

@@ -1653,69 +1653,69 @@ void close_loops(const Model<Real>& model, State<Real>& state) noexcept {
   const Real t20 = detail::cosine(detail::Angle<Real>(state.t) * model.rate);
   const Real t25 = t7 + (t20 - Real(1.0)) * model.c1;
   const Real t27 = t14 + Real(0.27);
-  const Real t36 = (t16 * t16 + t9 * t9 - Real(0.038545250214686674)) * Real(0.5);
-  const Real t43 = t16 * Real(0.031245752040724203) - (t9 * Real(0.24) - Real(6.077361763854758e-05));
-  const Real t50 = t16 * Real(0.2394153720623578) + (t9 * Real(0.03132205098267723) +
+  const Real t36 = (t9 * t9 + t16 * t16 - Real(0.038545250214686674)) * Real(0.5);
+  const Real t43 = t9 * Real(0.24) - (t16 * Real(0.031245752040724203) + Real(6.077361763854758e-05));
+  const Real t50 = t9 * Real(0.03132205098267723) + (t16 * Real(0.2394153720623578) +
       Real(0.0004656677253133288));
-  const Real t53 = t50 * t50 + t43 * t43;
+  const Real t53 = t43 * t43 + t50 * t50;
   const Real t54 = t36 * t36;
   const Real t56 = detail::square_root(t53 - t54);
-  const Real t65 = (t50 * t56 - t36 * t43) / t53;
-  const Real t66 = (t43 * t56 + t36 * t50) / t53;
-  const Real t79 = t66 * Real(0.01674155369859007) - (t65 * Real(0.002184915826985278) +
+  const Real t65 = (t36 * t43 + t50 * t56) / t53;
+  const Real t66 = (t36 * t50 - t43 * t56) / t53;
+  const Real t77 = t65 * Real(0.002184915826985278) - (t66 * Real(0.01674155369859007) -
       Real(0.02781508417301472));
-  const Real t80 = Real(0.03132205098267723) * t66 - (t9 - Real(0.24) * t65);
-  const Real t81 = Real(0.2394153720623578) * t66 - (t16 + Real(0.031245752040724203) * t65);
-  const Real t86 = t1 * t81 - t2 * t80;
-  const Real t87 = t2 * t81 + t1 * t80;
-  const Real t92 = t1 * t27 - t2 * t25;
-  const Real t93 = t2 * t27 + t1 * t25;
-  const Real t103 = t87 * t93 + (t86 * t92 + t79 * Real(0.14));
+  const Real t79 = Real(0.24) * t65 - (t9 - Real(0.03132205098267723) * t66);
+  const Real t81 = Real(0.031245752040724203) * t65 + (t16 - Real(0.2394153720623578) * t66);
+  const Real t86 = t2 * t79 + t1 * t81;
+  const Real t87 = t1 * t79 - t2 * t81;
+  const Real t92 = t2 * t25 - t1 * t27;
+  const Real t93 = t1 * t25 + t2 * t27;
+  const Real t103 = t86 * t92 - (t77 * Real(0.14) - t87 * t93);
   const Real t105 = t103 * Real(10.21450459652707);
-  const Real t109 = Real(0.14) - t79 * t105;
+  const Real t109 = Real(0.14) + t77 * t105;
   const Real t110 = t92 - t86 * t105;
   const Real t111 = t93 - t87 * t105;
-  const Real t117 = Real(1.0) / (t111 * t111 + (t110 * t110 + t109 * t109));
+  const Real t117 = Real(1.0) / (t110 * t110 + (t109 * t109 + t111 * t111));
   const Real t120 = Real(0.5) * (t25 * t25 + t27 * t27 - Real(0.058)) + t103 * Real(0.27068437180796734);
   const Real t121 = t117 * t120;
   const Real t133 = t120 * t121 - Real(0.01772686414708887);
-  const Real t139 = t79 * Real(3.1960138605029655);
+  const Real t139 = t77 * Real(3.1960138605029655);
   const Real t140 = t86 * Real(3.1960138605029655);
   const Real t141 = t87 * Real(3.1960138605029655);
-  const Real t143 = detail::square_root(-(Real(10.21450459652707) * (t117 * t133))) *
+  const Real t143 = t121 * Real(7.5107627169405085);
+  const Real t147 = detail::square_root(-(Real(10.21450459652707) * (t117 * t133))) *
       Real(7.5107627169405085);
-  const Real t147 = t121 * Real(7.5107627169405085);
-  const Real t151 = (t87 * t110 - t86 * t111) * t143 + t109 * t147;
-  const Real t152 = (t79 * t111 - t87 * t109) * t143 + t110 * t147;
-  const Real t153 = (t86 * t109 - t79 * t110) * t143 + t111 * t147;
-  const Real t166 = detail::square_root(Real(1.0) - (t152 + (t139 + (t140 * t151 - t139 * t152))));
-  const Real t168 = Real(0.5) * (Real(1.0) / t166);
-  const Real t170 = t168 * (t140 - t151);
-  const Real t172 = t168 * (t141 - (t141 * t152 - t140 * t153));
-  const Real t174 = t168 * (t153 - (t139 * t153 - t141 * t151));
-  const Real t175 = Real(0.5) * t166;
-  const Real t198 = t175 * Real(0.5227505978949086) + t174 * Real(0.524091614422574) + (t172 *
-      Real(0.42675505450857476) - t170 * Real(0.5195574227588697));
-  const Real t199 = t172 * Real(0.524091614422574) + t175 * Real(0.5195574227588697) - (t174 *
-      Real(0.42675505450857476) - t170 * Real(0.5227505978949086));
-  const Real t200 = t174 * Real(0.5195574227588697) - t172 * Real(0.5227505978949086) + (t175 *
-      Real(0.42675505450857476) + t170 * Real(0.524091614422574));
-  const Real t207 = t175 * Real(0.524091614422574) - (t174 * Real(0.5227505978949086) + t172 *
-      Real(0.5195574227588697)) - t170 * Real(0.42675505450857476);
+  const Real t151 = t109 * t143 + (t86 * t111 - t87 * t110) * t147;
+  const Real t152 = t110 * t143 + (t87 * t109 + t77 * t111) * t147;
+  const Real t153 = t111 * t143 - (t77 * t110 + t86 * t109) * t147;
+  const Real t164 = detail::square_root(t140 * t151 + (t139 * t152 + (t139 + (Real(1.0) + t152))));
+  const Real t166 = Real(0.5) * (Real(1.0) / t164);
+  const Real t168 = t166 * (t140 + t151);
+  const Real t171 = t166 * (t141 * t152 + (t141 - t140 * t153));
+  const Real t174 = t166 * (t139 * t153 + (t153 + t141 * t151));
+  const Real t175 = Real(0.5) * t164;
+  const Real t194 = t171 * Real(0.42675505450857476) + (t168 * Real(0.5195574227588697) + (t174 *
+      Real(0.524091614422574) + t175 * Real(0.5227505978949086)));
+  const Real t197 = t174 * Real(0.42675505450857476) + (t168 * Real(0.5227505978949086) - (t175 *
+      Real(0.5195574227588697) + t171 * Real(0.524091614422574)));
+  const Real t200 = t175 * Real(0.42675505450857476) - (t168 * Real(0.524091614422574) + (t171 *
+      Real(0.5227505978949086) - t174 * Real(0.5195574227588697)));
+  const Real t207 = t174 * Real(0.5227505978949086) + (t171 * Real(0.5195574227588697) - (t168 *
+      Real(0.42675505450857476) + t175 * Real(0.524091614422574)));
   Real t210, t209;
   detail::sine_cosine(state.y[5], t210, t209);
-  const Real t219 = detail::arctangent2(-(t65 * t210 + t66 * t209), -(t66 * t210 - t65 * t209));
-  const Real t223 = t207 - state.y[1];
-  const Real t227 = t198 + state.y[2];
-  const Real t231 = t199 + state.y[3];
-  const Real t235 = t200 - state.y[4];
-  closed.y[5] = state.y[5] + t219;
-  closed.y[1] = t207;
-  closed.y[2] = -t198;
-  closed.y[3] = -t199;
+  const Real t218 = detail::arctangent2(-(t66 * t209 + t65 * t210), t65 * t209 - t66 * t210);
+  const Real t222 = t207 + state.y[1];
+  const Real t225 = t194 + state.y[2];
+  const Real t228 = t197 - state.y[3];
+  const Real t231 = t200 - state.y[4];
+  closed.y[5] = state.y[5] + t218;
+  closed.y[1] = -t207;
+  closed.y[2] = -t194;
+  closed.y[3] = t197;
   closed.y[4] = t200;
   closed.regularity = -((Real(1.0) - t54 / t53) * t133 * Real(56.41155659018357));
-  closed.opening = t219 * t219 + t223 * t223 + t227 * t227 + t231 * t231 + t235 * t235;
+  closed.opening = t231 * t231 + (t228 * t228 + (t225 * t225 + (t218 * t218 + t222 * t222)));
   closed.beyond[0] = (state.y[0] + Real(0.3)) * (state.y[0] - Real(0.3));
   state = closed;
 }

@@ -654,20 +654,20 @@ void close_loops(const Model<Real>&, State<Real>& state) noexcept {
   const Real t23 = t2 * Real(0.32921810699588483) - Real(0.5980795610425241);
   const Real t24 = t19 * t19;
   const Real t27 = detail::square_root(-(t23 + t24));
-  const Real t37 = (t15 * t27 - t14 * t19) / t23;
-  const Real t38 = (t14 * t27 + t15 * t19) / t23;
-  const Real t45 = t2 * Real(1.1111111111111112) - Real(0.3333333333333333) + (t5 * t38 - t4 * t37);
-  const Real t46 = t1 * Real(1.1111111111111112) - (t4 * t38 + t5 * t37);
+  const Real t37 = (t14 * t19 - t15 * t27) / t23;
+  const Real t38 = (t15 * t19 + t14 * t27) / t23;
+  const Real t45 = t2 * Real(1.1111111111111112) - Real(0.3333333333333333) + (t4 * t37 + t5 * t38);
+  const Real t46 = t1 * Real(1.1111111111111112) + (t5 * t37 - t4 * t38);
   Real t49, t48;
   detail::sine_cosine(state.y[1], t49, t48);
-  const Real t58 = detail::arctangent2(-(t45 * t49 + t46 * t48), -(t46 * t49 - t45 * t48));
-  Real t62, t61;
-  detail::sine_cosine(state.y[2], t62, t61);
-  const Real t69 = detail::arctangent2(t37 * t62 + t38 * t61, t38 * t62 - t37 * t61);
-  closed.y[1] = state.y[1] + t58;
-  closed.y[2] = state.y[2] + t69;
+  const Real t57 = detail::arctangent2(-(t46 * t48 + t45 * t49), t45 * t48 - t46 * t49);
+  Real t61, t60;
+  detail::sine_cosine(state.y[2], t61, t60);
+  const Real t68 = detail::arctangent2(t38 * t60 - t37 * t61, t37 * t60 + t38 * t61);
+  closed.y[1] = state.y[1] + t57;
+  closed.y[2] = state.y[2] + t68;
   closed.regularity = t24 / t23 + Real(1.0);
-  closed.opening = t58 * t58 + t69 * t69;
+  closed.opening = t57 * t57 + t68 * t68;
   state = closed;
 }
 

@@ -552,11 +552,11 @@ void close_loops(const Model<Real>&, State<Real>& state) noexcept {
   const Real t9 = t1 * Real(0.045) - Real(0.006);
   const Real t12 = t9 * t9 - Real(0.021025);
   const Real t14 = detail::square_root(-t12);
-  const Real t24 = (t6 * t14 - t7 * t9) * Real(47.562425683709876);
-  const Real t25 = (t7 * t14 + t6 * t9) * Real(47.562425683709876);
+  const Real t24 = (t7 * t9 - t6 * t14) * Real(47.562425683709876);
+  const Real t25 = (t6 * t9 + t7 * t14) * Real(47.562425683709876);
   Real t28, t27;
   detail::sine_cosine(state.y[1], t28, t27);
-  const Real t37 = detail::arctangent2(-(t24 * t28 + t25 * t27), -(t25 * t28 - t24 * t27));
+  const Real t37 = detail::arctangent2(-(t25 * t27 - t24 * t28), -(t24 * t27 + t25 * t28));
   const Real t40 = t14 + t2 * Real(0.045);
   const Real t43 = t40 - state.y[2];
   closed.y[1] = state.y[1] + t37;

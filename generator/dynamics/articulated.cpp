@@ -49,8 +49,9 @@ Matrix3 rotated(const Matrix3& R, const Matrix3& M, const std::string& name, Sta
 
 /// Rz M Rzᵀ. With t = s (M_xx − M_yy) + c (M_xy + M_yx): M'_xx = M_xx − s t, M'_xy = c t − M_yx, M'_yx = c t − M_xy.
 Matrix3 turned(const Matrix3& M, const Ex& c, const Ex& s, const std::string& name, Statements& statements) {
-  const Ex t = statements.bind(name + "t", s * statements.bind(name + "d", M[0][0] - M[1][1]) +
-                                               c * statements.bind(name + "e", M[0][1] + M[1][0]));
+  const Ex e = statements.bind(name + "e", M[0][1] + M[1][0]);
+  const Ex d = statements.bind(name + "d", M[0][0] - M[1][1]);
+  const Ex t = statements.bind(name + "t", s * d + c * e);
   const Ex trace = statements.bind(name + "p", M[0][0] + M[1][1]);
   const Ex ct = statements.bind(name + "ct", c * t);
   Matrix3 T;

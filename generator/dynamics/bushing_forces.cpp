@@ -55,8 +55,8 @@ Vector3 resistance(const Scene& scene, const Ends& ends, const model::Vector3& s
     const Vector3& axis = ends.from.axes[k];
     const Ex along = scene.statements.bind(name + "_x", dot(axis, x)),
              speed = scene.statements.bind(name + "_v", dot(axis, rate));
-    const Ex force = scene.statements.bind(name + "_f", scene.value("stiffness", stiffness[k]) * along +
-                                                            scene.value("damping", damping[k]) * speed);
+    const Ex d = scene.value("damping", damping[k]), c = scene.value("stiffness", stiffness[k]);
+    const Ex force = scene.statements.bind(name + "_f", c * along + d * speed);
     sum = scene.statements.bind(name, sum + force * axis);
   }
   return sum;

@@ -36,7 +36,7 @@ std::vector<KinematicValues> Centroidal::values(KinematicQuantity quantity, cons
     case KinematicQuantity::kCenterOfMassJacobian:
       return columns("J_com", "drift_com", false);
     case KinematicQuantity::kCenterOfMassBias:
-      return {three("bias_com", bind("cb", (1 / mass()) * rate(zdot).force))};
+      return {three("bias_com", bind("cb", per_mass(rate(zdot).force)))};
     case KinematicQuantity::kMomentum:
       return {six("momentum", momentum())};
     case KinematicQuantity::kCentroidalMomentumMatrix:
@@ -73,6 +73,8 @@ Ex Centroidal::mass() {
   return scene_.statements.bind(name_ + "m", sum);
 }
 
+Vector3 Centroidal::per_mass(const Vector3& v) { return (1 / mass()) * v; }
+
 Vector3 Centroidal::center_of_mass() {
   if (center_) return *center_;
   Vector3 first = scene_.tree.ground.first;
@@ -83,7 +85,7 @@ Vector3 Centroidal::center_of_mass() {
     first = first + h;
     if (!hangs_on_one_free_link()) first = first + moments.mass * scene_.frames.r_CW(root);
   }
-  Vector3 center = (1 / mass()) * bind("h", first);
+  Vector3 center = per_mass(bind("h", first));
   if (hangs_on_one_free_link()) center = center + scene_.frames.r_CW(roots().front());
   center_ = bind("c", center);
   return *center_;

@@ -32,6 +32,7 @@ class Centroidal {
   std::vector<std::size_t> roots() const;
   bool hangs_on_one_free_link() const;
   Ex mass();
+  Vector3 per_mass(const Vector3& v);
   /// From the centre of mass to the origin of a root link, in the axes of its W.
   Vector3 arm(std::size_t root);
   Vector3 center_of_mass();

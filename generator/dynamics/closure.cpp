@@ -125,6 +125,16 @@ class Closure {
   }
 
   /// Of a direction of `from` and one of `to`.
+  void hold_axes_across(const Vector3& of_a, const Vector3& of_b) {
+    const MovingVector w = b_.direction(of_b);
+    hold_across(a_.direction(of_a), w);
+  }
+
+  void keep_sense(const Vector3& of_a, const Vector3& of_b) {
+    const MovingVector w = b_.direction(of_b);
+    closure_.senses.push_back(dot(a_.direction(of_a).value, w.value));
+  }
+
   void hold_across(const MovingVector& u, const MovingVector& w) {
     const Vector3 turn = kinematics::cross(u.value, w.value);
     add_row(product(u, w), {.turn_from = turn, .turn_to = Ex(-1) * turn});
@@ -170,13 +180,12 @@ class Closure {
         return hold_parallel(from_axes);
       case LoopType::kUniversal:
         coincide();
-        return hold_across(a_.direction(n), b_.direction(kinematics::unit_vector(loop_.to_axis)));
+        return hold_axes_across(n, kinematics::unit_vector(loop_.to_axis));
       case LoopType::kPrismatic:
         hold_points(from_axes);
         hold_parallel(from_axes);
-        hold_across(a_.direction(from_axes[0]), b_.direction(to_axes[1]));
-        closure_.senses.push_back(dot(a_.direction(from_axes[0]).value, b_.direction(to_axes[0]).value));
-        return;
+        hold_axes_across(from_axes[0], to_axes[1]);
+        return keep_sense(from_axes[0], to_axes[0]);
       case LoopType::kCylindrical:
         hold_points(from_axes);
         return hold_parallel(from_axes);

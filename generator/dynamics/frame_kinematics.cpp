@@ -88,7 +88,10 @@ Vector3 FrameKinematics::to_frame(const Vector3& v_W, const std::string& what) c
 
 /// By the rotation where that is at hand, otherwise inward from link to link.
 Vector3 FrameKinematics::to_world(const Vector3& v_W, const std::string& what) {
-  if (shares_rotation_) return bind(what + "w", rotation() * to_frame(v_W, what));
+  if (shares_rotation_) {
+    const Vector3 v_B = to_frame(v_W, what);
+    return bind(what + "w", rotation() * v_B);
+  }
   Vector3 v = v_W;
   for (const std::size_t link : path_.links)
     v = scene_.frames.to_parent(link, v, fmt::format("{}{}i{}", name_, what, link));

@@ -156,8 +156,8 @@ class Derivation {
     const Vector3 g = gravity(k);
     const Ex a = scaled(j, link_named("lgc", j), h[0] * g[1] - h[1] * g[0]);
     const Ex b = scaled(j, link_named("lgs", j), h[0] * g[0] + h[1] * g[1]);
-    result_.weight[j] =
-        statements_.bind(link_named("lg", j), a * angles_.cosine(j, kGround) - b * angles_.sine(j, kGround));
+    const Ex sine = angles_.sine(j, kGround), cosine = angles_.cosine(j, kGround);
+    result_.weight[j] = statements_.bind(link_named("lg", j), a * cosine - b * sine);
     result_.weight_alone[j] =
         statements_.bind(link_named("lga", j), a * scene_.frames.cosine(j) - b * scene_.frames.sine(j));
   }

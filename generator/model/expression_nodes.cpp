@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace jourdain::model {
 
@@ -95,22 +96,22 @@ std::size_t NodeList::add(const Node& node) {
 }
 
 std::vector<Expression::Node> NodeList::finish(std::size_t root) const {
-  std::vector<bool> is_needed(nodes_.size());
-  is_needed[root] = true;
-  for (std::size_t i = root + 1; i-- > 0;) {
-    if (!is_needed[i]) continue;
-    const int operands = operand_count(nodes_[i]);
-    if (operands >= 1) is_needed[nodes_[i].left] = true;
-    if (operands == 2) is_needed[nodes_[i].right] = true;
-  }
+  constexpr std::size_t kNowhere = std::numeric_limits<std::size_t>::max();
   std::vector<Node> result;
-  std::vector<std::size_t> place(nodes_.size());
-  for (std::size_t i = 0; i <= root; ++i) {
-    if (!is_needed[i]) continue;
+  std::vector<std::size_t> place(nodes_.size(), kNowhere), open = {root};
+  const auto has_place = [&](std::size_t operand) {
+    if (place[operand] == kNowhere) open.push_back(operand);
+    return place[operand] != kNowhere;
+  };
+  while (!open.empty()) {
+    const std::size_t i = open.back();
     Node node = nodes_[i];
-    if (operand_count(node) > 0) {
+    const int operands = operand_count(node);
+    if ((operands >= 1 && !has_place(node.left)) || (operands == 2 && !has_place(node.right))) continue;
+    open.pop_back();
+    if (operands > 0) {
       node.left = place[node.left];
-      node.right = operand_count(node) == 2 ? place[node.right] : node.left;
+      node.right = operands == 2 ? place[node.right] : node.left;
     }
     place[i] = result.size();
     result.push_back(node);

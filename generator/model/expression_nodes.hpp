@@ -28,7 +28,7 @@ class NodeList {
   std::size_t append(const Expression& expression);
   /// A leaf, or an operation on earlier nodes.
   std::size_t add(const Node& node);
-  /// What the value at `root` needs, in order.
+  /// What the value at `root` needs, left operands first, in whichever order it was added.
   std::vector<Node> finish(std::size_t root) const;
 
  private:

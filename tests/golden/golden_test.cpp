@@ -1,4 +1,5 @@
-// generated/ is what the compiler emits today, on every run.
+// generated/ is what the compiler emits today, on every run, whichever C++ compiler it was built by: with sanitizers that is another
+// one, whose output for the other suites is compared.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -68,9 +69,13 @@ TEST(Golden, GeneratedSourcesAreThoseOfTheModels) {
       compile("models/" + model + ".toml", committed);
       continue;
     }
+#ifdef JOURDAIN_SANITIZED
+    expect_same_folder(committed, fs::path(JOURDAIN_EMITTED) / model);  // by another compiler's command
+#else
     const support::TemporaryFolder folder;
     compile("models/" + model + ".toml", folder.path());
     expect_same_folder(committed, folder.path());
+#endif
   }
 }
 

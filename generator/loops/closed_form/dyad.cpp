@@ -75,22 +75,24 @@ class Solver {
 
   /// Regular at the initial state: its columns are not parallel.
   bool is_regular(const Matrix2& m) const {
-    const double det = at_start(determinant(m)),
-                 size = at_start(dot(m.first, m.first) + dot(m.second, m.second));
+    const double det = at_start(determinant(m)), size = at_start(size_of(m));
     return std::fabs(det) > Roots::kDeadPosition * size;
   }
+
+  /// The sum of the squares of its entries.
+  static Scalar size_of(const Matrix2& m) { return sum({dot(m.first, m.first), dot(m.second, m.second)}); }
 
   /// Are lengths of all directions scaled alike: a rotation or reflection, times a number?
   bool is_similarity(const Matrix2& m) const {
     const Scalar size = dot(m.first, m.first);
     return agree(size, dot(m.second, m.second), size, samples_) &&
-           agree(dot(m.first, m.second), number(0), size, samples_);
+           vanishes(dot(m.first, m.second), size, samples_);
   }
 
   /// Multiplication with a complex number: its second column is the first turned by a quarter.
   bool is_complex(const Matrix2& m) const {
     const Vector2 turned = quarter(m.first);
-    const Scalar size = square_root(dot(m.first, m.first) + dot(m.second, m.second));
+    const Scalar size = square_root(size_of(m));
     return agree(m.second.x, turned.x, size, samples_) && agree(m.second.y, turned.y, size, samples_);
   }
 
@@ -125,8 +127,10 @@ class Solver {
     const Matrix2 m = {column(value_of(0)), column(value_of(1))};
     if (!is_regular(m)) return kUndetermined;
     const Scalar det = determinant(m);
-    roots_.require(det * det / (dot(m.first, m.first) * dot(m.second, m.second)), true);
-    const Vector2 s = inverse(m) * -column(kConstant);
+    const Scalar squares[] = {dot(m.first, m.first), dot(m.second, m.second)}, size = squares[0] * squares[1];
+    roots_.require(det * det / size, true);
+    const Matrix2 inverse_m = inverse(m);
+    const Vector2 s = inverse_m * -column(kConstant);
     return solution(known(s.x), known(s.y));
   }
 
@@ -152,13 +156,16 @@ class Solver {
     }
     const Vector3 a = n[1] - n[0], b = n[2] - n[0], m = cross(a, b);
     const Scalar size = dot(m, m), half = 0.5 * dot(n[0], m), radius = 0.25 * dot(n[0], n[0]) - w[0];
-    if (!(at_start(size) > Roots::kDeadPosition * at_start(dot(a, a) * dot(b, b)))) return kDead;
+    const Scalar squares[] = {dot(a, a), dot(b, b)};
+    if (!(at_start(size) > Roots::kDeadPosition * at_start(squares[0] * squares[1]))) return kDead;
     roots_.require(size, false);
     roots_.require(radius, false);
-    const Vector3 x = ((w[0] - w[1]) * cross(b, m) + (w[0] - w[2]) * cross(m, a)) / size;
-    const Scalar rest = dot(x, x) + dot(n[0], x) + w[0];
-    const auto s = roots_.slide(-half / size, half * half - size * rest, size,
-                                at_start(dot(start - x, m) / size), size * radius);
+    const Scalar w_a = w[0] - w[1], w_b = w[0] - w[2];
+    const Vector3 x = sum({w_a * cross(b, m), w_b * cross(m, a)}) / size;
+    const Scalar rest = sum({dot(x, x), dot(n[0], x), w[0]});
+    const Scalar centre = -half / size, discriminant = difference({half * half, size * rest});
+    const double nearest = at_start(dot(start - x, m) / size);
+    const auto s = roots_.slide(centre, discriminant, size, nearest, size * radius);
     if (!s) return kDead;
     const Vector3 found = x + *s * m;
     return Solution{{known(found.x), known(found.y), known(found.z)}, roots_.conditions()};
@@ -182,7 +189,7 @@ class Solver {
     const Matrix2 inverse_A = inverse(A), B = inverse_A * matrix(1);
     if (!is_similarity(B)) return kOtherForm;
     const Vector2 k = inverse_A * column(kConstant), n = {dot(B.first, k), dot(B.second, k)};
-    const Scalar gamma = 0.5 * (number(1) - dot(k, k) - dot(B.first, B.first));
+    const Scalar gamma = 0.5 * difference({number(1), dot(k, k), dot(B.first, B.first)});
     const auto e_b = roots_.direction(n, gamma, initial_[1]);
     if (!e_b) return kDead;
     return solution(known(-(k + B * *e_b)), known(*e_b));
@@ -198,11 +205,11 @@ class Solver {
     if (!is_complex(by_cos) || !is_complex(by_sin) || !is_similarity(W)) return kOtherForm;
     const Vector2 k = inverse_A * column(kConstant);
     const Scalar distance = dot(k, k);
-    const Scalar gamma = 0.5 * (distance - 1.0 - dot(W.first, W.first));
+    const Scalar gamma = 0.5 * difference({distance - 1.0, dot(W.first, W.first)});
     const auto e_b = roots_.direction({W.first.x, W.second.x}, gamma, initial_[b]);
     if (!e_b) return kDead;
     roots_.require(distance, false);
-    const Vector2 m = Vector2{number(1), number(0)} + W * *e_b;
+    const Vector2 m = sum({Vector2{number(1), number(0)}, W * *e_b});
     return solution(known(-times_conjugate(k, m) / distance), known(*e_b));
   }
 
@@ -221,7 +228,8 @@ class Solver {
     const Matrix2 inverse_A = inverse(A);
     const Vector2 k = inverse_A * column(kConstant), v = inverse_A * column(value_of(s));
     const Scalar size = dot(v, v), offset = cross(k, v), along = dot(k, v);
-    const auto value = roots_.slide(-along / size, size - offset * offset, size, initial_[s], size);
+    const Scalar centre = -along / size, discriminant = size - offset * offset;
+    const auto value = roots_.slide(centre, discriminant, size, initial_[s], size);
     if (!value) return kDead;
     return solution(known(-(k + *value * v)), known(*value));
   }
@@ -234,7 +242,8 @@ class Solver {
     if (!is_zero(U) && !is_complex(U)) return kOtherForm;
     const Vector2 k = inverse_C * column(kConstant), u = U.first;
     const Scalar distance = dot(k, k);
-    const auto value = roots_.slide(-u.x, distance - u.y * u.y, number(1), initial_[s], distance);
+    const Scalar discriminant = distance - u.y * u.y;
+    const auto value = roots_.slide(-u.x, discriminant, number(1), initial_[s], distance);
     if (!value) return kDead;
     roots_.require(distance, false);
     const Vector2 m = {u.x + *value, u.y};

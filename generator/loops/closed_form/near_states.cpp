@@ -63,4 +63,8 @@ bool agree(Scalar a, Scalar b, Scalar scale, const Samples& samples) {
   return true;
 }
 
+bool vanishes(Scalar a, Scalar scale, const Samples& samples) {
+  return agree(a, {a.builder, a.builder->literal(0)}, scale, samples);
+}
+
 }  // namespace jourdain::loops

@@ -26,7 +26,8 @@ std::vector<std::vector<double>> evaluated(const std::vector<Scalar>& values, co
 /// The value at the initial state.
 double initial(Scalar value, const Samples& samples);
 
-/// Do the two agree at every state at which they exist, in units of `scale`?
+/// Do the two agree, or is the one zero, at every state at which they exist, in units of `scale`?
 bool agree(Scalar a, Scalar b, Scalar scale, const Samples& samples);
+bool vanishes(Scalar a, Scalar scale, const Samples& samples);
 
 }  // namespace jourdain::loops

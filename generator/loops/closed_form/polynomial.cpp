@@ -204,8 +204,8 @@ class Expansion {
         return pair_of(node.a).cosine;
       default:
         if (!is_constant(a) || (ir::operand_count(node.op) == 2 && !is_constant(b))) break;
-        return {{kConstant, applied(ir::function_of(node.op), constant(a),
-                                    ir::operand_count(node.op) == 2 ? constant(b) : constant(a))}};
+        const Scalar first = constant(a), second = ir::operand_count(node.op) == 2 ? constant(b) : first;
+        return {{kConstant, applied(ir::function_of(node.op), first, second)}};
     }
     return fail(fmt::format("a constraint has {} of {}", ir::op_name(node.op), unknown_names()));
   }
@@ -273,8 +273,9 @@ class Expansion {
       const Pair a = pair_of(node.a);
       Pair b = pair_of(node.b);
       if (node.op == Op::kSubtract) b.sine = negated(b.sine);
-      return {sum(product(a.sine, b.cosine), product(a.cosine, b.sine)),
-              sum(product(a.cosine, b.cosine), negated(product(a.sine, b.sine)))};
+      const Polynomial products[] = {product(a.sine, b.cosine), product(a.cosine, b.sine),
+                                     product(a.cosine, b.cosine), product(a.sine, b.sine)};
+      return {sum(products[0], products[1]), sum(products[2], negated(products[3]))};
     }
     if (!is_constant(expanded_[id.value])) {
       fail(fmt::format("a constraint has the sine of a multiple of {}", unknown_names()));

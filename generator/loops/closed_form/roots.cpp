@@ -10,9 +10,9 @@ std::optional<Vector2> Roots::direction(Vector2 n, Scalar gamma, double angle) {
   const double side = at_start(cross(n, start)), scale = at_start(size);
   if (!(side * side > kDeadPosition * scale)) return std::nullopt;
   const Scalar root = square_root(size - gamma * gamma);
-  require(number(1) - gamma * gamma / size, true);
+  require(difference({number(1), gamma * gamma / size}), true);
   require(size, false);  // where γ is 0 the margin is 1 without it
-  return (gamma * n + (side > 0 ? root : -root) * quarter(n)) / size;
+  return sum({gamma * n, (side > 0 ? root : -root) * quarter(n)}) / size;
 }
 
 std::optional<Scalar> Roots::slide(Scalar centre, Scalar discriminant, Scalar divisor, double start,

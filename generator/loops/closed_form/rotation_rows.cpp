@@ -123,7 +123,8 @@ Factors RotationRows::scaled(Factors factors, Scalar length) const {
   const Scalar at_start = constant(length);
   if (std::fabs(this->at_start(at_start) - 1) < 4e-16) return factors;
   factors.right = at_start * factors.right;
-  for (Vector3& v : factors.left) v = number(1) / at_start * v;
+  const Scalar inverse = number(1) / at_start;
+  for (Vector3& v : factors.left) v = inverse * v;
   return factors;
 }
 
@@ -131,7 +132,8 @@ bool RotationRows::is_orthonormal(const std::vector<Vector3>& B) const {
   const Scalar one = number(1);
   for (std::size_t i = 0; i < B.size(); ++i)
     for (std::size_t j = i; j < B.size(); ++j)
-      if (!agree(dot(B[i], B[j]), number(i == j), one, samples_)) return false;
+      if (const Scalar product = dot(B[i], B[j]); !agree(product, number(i == j), one, samples_))
+        return false;
   return true;
 }
 

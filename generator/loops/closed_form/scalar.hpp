@@ -1,6 +1,10 @@
 // Formulas on values of a program under construction, written as they are on paper.
 #pragma once
 
+#include <functional>
+#include <initializer_list>
+#include <numeric>
+
 #include "ir/builder.hpp"
 
 namespace jourdain::loops {
@@ -31,6 +35,19 @@ inline Scalar applied(support::Function function, Scalar a, Scalar b) {
 /// The angle of (x, y), in (−π, π].
 inline Scalar angle_of(Scalar x, Scalar y) { return {x.builder, x.builder->atan2(y.value, x.value)}; }
 
+/// Operands of an operator and arguments of a call are built in an order of the compiler's choice, terms in braces one after
+/// the other: where two of them are formulas themselves, they stand in braces.
+template <class Term>
+Term sum(std::initializer_list<Term> terms) {
+  return std::accumulate(terms.begin() + 1, terms.end(), *terms.begin());
+}
+
+/// The first less the others.
+template <class Term>
+Term difference(std::initializer_list<Term> terms) {
+  return std::accumulate(terms.begin() + 1, terms.end(), *terms.begin(), std::minus<Term>());
+}
+
 inline bool is_zero(Scalar a) { return a.builder->is_literal(a.value, 0); }
 
 inline bool is_literal(Scalar a) { return a.builder->program()[a.value.value].op == ir::Op::kLiteral; }
@@ -45,8 +62,8 @@ inline Vector2 operator+(Vector2 a, Vector2 b) { return {a.x + b.x, a.y + b.y}; 
 inline Vector2 operator-(Vector2 a, Vector2 b) { return a + -b; }
 inline Vector2 operator*(Scalar a, Vector2 b) { return {a * b.x, a * b.y}; }
 inline Vector2 operator/(Vector2 a, Scalar b) { return {a.x / b, a.y / b}; }
-inline Scalar dot(Vector2 a, Vector2 b) { return a.x * b.x + a.y * b.y; }
-inline Scalar cross(Vector2 a, Vector2 b) { return a.x * b.y - a.y * b.x; }
+inline Scalar dot(Vector2 a, Vector2 b) { return sum({a.x * b.x, a.y * b.y}); }
+inline Scalar cross(Vector2 a, Vector2 b) { return difference({a.x * b.y, a.y * b.x}); }
 
 /// Turned by a quarter, counterclockwise.
 inline Vector2 quarter(Vector2 a) { return {-a.y, a.x}; }
@@ -59,7 +76,7 @@ struct Matrix2 {
   Vector2 first, second;
 };
 
-inline Vector2 operator*(const Matrix2& m, Vector2 v) { return v.x * m.first + v.y * m.second; }
+inline Vector2 operator*(const Matrix2& m, Vector2 v) { return sum({v.x * m.first, v.y * m.second}); }
 inline Matrix2 operator*(const Matrix2& m, const Matrix2& n) { return {m * n.first, m * n.second}; }
 inline Scalar determinant(const Matrix2& m) { return cross(m.first, m.second); }
 
@@ -80,9 +97,10 @@ inline Vector3 operator+(Vector3 a, Vector3 b) { return {a.x + b.x, a.y + b.y, a
 inline Vector3 operator-(Vector3 a, Vector3 b) { return a + -b; }
 inline Vector3 operator*(Scalar a, Vector3 b) { return {a * b.x, a * b.y, a * b.z}; }
 inline Vector3 operator/(Vector3 a, Scalar b) { return {a.x / b, a.y / b, a.z / b}; }
-inline Scalar dot(Vector3 a, Vector3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Scalar dot(Vector3 a, Vector3 b) { return sum({a.x * b.x, a.y * b.y, a.z * b.z}); }
 inline Vector3 cross(Vector3 a, Vector3 b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+  return {difference({a.y * b.z, a.z * b.y}), difference({a.z * b.x, a.x * b.z}),
+          difference({a.x * b.y, a.y * b.x})};
 }
 
 /// Columns of a matrix of three rows.
@@ -91,7 +109,7 @@ struct Matrix3 {
 };
 
 inline Vector3 operator*(const Matrix3& m, Vector3 v) {
-  return v.x * m.columns[0] + v.y * m.columns[1] + v.z * m.columns[2];
+  return sum({v.x * m.columns[0], v.y * m.columns[1], v.z * m.columns[2]});
 }
 
 /// Of the matrix with these rows.
@@ -108,8 +126,8 @@ struct Quaternion {
 
 inline Quaternion conjugate(const Quaternion& q) { return {q.w, -q.x, -q.y, -q.z}; }
 inline Quaternion operator*(const Quaternion& a, const Quaternion& b) {
-  const Vector3 u = {a.x, a.y, a.z}, v = {b.x, b.y, b.z}, sum = a.w * v + b.w * u + cross(u, v);
-  return {a.w * b.w - dot(u, v), sum.x, sum.y, sum.z};
+  const Vector3 u = {a.x, a.y, a.z}, v = {b.x, b.y, b.z}, imaginary = sum({a.w * v, b.w * u, cross(u, v)});
+  return {difference({a.w * b.w, dot(u, v)}), imaginary.x, imaginary.y, imaginary.z};
 }
 
 }  // namespace jourdain::loops

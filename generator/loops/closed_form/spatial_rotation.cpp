@@ -101,7 +101,7 @@ class RotationSolver : RotationRows {
     const Vector2 e = *scalar_->direction;
     std::vector<Vector3> B;
     for (std::size_t k = 0; k < 3; ++k)
-      B.push_back(factors->left[k] + e.x * factors->left[3 + k] + e.y * factors->left[6 + k]);
+      B.push_back(sum({factors->left[k], e.x * factors->left[3 + k], e.y * factors->left[6 + k]}));
     if (!is_orthonormal(B)) return std::nullopt;
     image->d = Matrix3{{B[0], B[1], B[2]}} * image->d;
     return image;
@@ -138,13 +138,13 @@ class RotationSolver : RotationRows {
   std::optional<Image> on_circle(Vector3 c, Vector3 d, Vector3 by_cos, Vector3 by_sin) {
     const Scalar radius = dot(by_cos, by_cos);
     const bool is_circle = agree(radius, dot(by_sin, by_sin), radius, roots_.samples()) &&
-                           agree(dot(by_cos, by_sin), number(0), radius, roots_.samples());
+                           vanishes(dot(by_cos, by_sin), radius, roots_.samples());
     if (!is_circle) return std::nullopt;
-    const Scalar gamma = 0.5 * (dot(c, c) - dot(d, d) - radius);
+    const Scalar gamma = 0.5 * difference({dot(c, c), dot(d, d), radius});
     const auto e = roots_.direction({dot(d, by_cos), dot(d, by_sin)}, gamma, *initial_scalar_);
     if (!e) return dead();
     scalar_ = {{}, *e};
-    return Image{c, d + e->x * by_cos + e->y * by_sin};
+    return Image{c, sum({d, e->x * by_cos, e->y * by_sin})};
   }
 
   /// |d + s d′| = |c + s c′| where one of d′ and c′ is 0.
@@ -153,9 +153,10 @@ class RotationSolver : RotationRows {
     if (in_body == is_zero(c_along)) return std::nullopt;
     const Vector3 from = in_body ? c : d, along = in_body ? c_along : d_along, other = in_body ? d : c;
     const Scalar size = dot(along, along), half = dot(from, along), distance = dot(other, other);
-    const Scalar discriminant = half * half - size * (dot(from, from) - distance);
+    const Scalar nearer = dot(from, from) - distance, centre = -half / size;
+    const Scalar discriminant = difference({half * half, size * nearer});
     roots_.require(distance, false);
-    const auto s = roots_.slide(-half / size, discriminant, size, *initial_scalar_, size * distance);
+    const auto s = roots_.slide(centre, discriminant, size, *initial_scalar_, size * distance);
     if (!s) return dead();
     scalar_ = {*s, std::nullopt};
     const Vector3 moved = from + *s * along;
@@ -173,13 +174,12 @@ class RotationSolver : RotationRows {
     const Vector3 a = factors->left[0], b = factors->left[1], d = factors->right, n = cross(a, b);
     const Scalar size = dot(n, n);
     if (!(at_start(size) > kRegular)) return std::nullopt;
-    const Vector3 across =
-        (-coefficient(rows[0], kConstant) * cross(b, n) - coefficient(rows[1], kConstant) * cross(n, a)) /
-        size;
+    const Scalar w_a = -coefficient(rows[0], kConstant), w_b = coefficient(rows[1], kConstant);
+    const Vector3 across = difference({w_a * cross(b, n), w_b * cross(n, a)}) / size;
     const Scalar distance = dot(d, d);
     roots_.require(distance, false);
-    const auto s =
-        roots_.signed_root((distance - dot(across, across)) / size, dot(turned_back(d), n), distance / size);
+    const Scalar square = (distance - dot(across, across)) / size, side = dot(turned_back(d), n);
+    const auto s = roots_.signed_root(square, side, distance / size);
     if (!s) return dead();
     return Image{across + *s * n, d};
   }
@@ -234,7 +234,8 @@ class RotationSolver : RotationRows {
     if (!is_orthonormal(factors->left)) return std::nullopt;
     const auto& B = factors->left;
     const Vector3 p = column(rows, kConstant), t = factors->right;
-    return Held{Matrix3{{B[0], B[1], B[2]}} * p, t, 0.5 * (rod.length * rod.length - dot(p, p) - dot(t, t))};
+    return Held{Matrix3{{B[0], B[1], B[2]}} * p, t,
+                0.5 * difference({rod.length * rod.length, dot(p, p), dot(t, t)})};
   }
 
   /// With R c = d and n · R t = γ: R t = (c·t/|c|²) d + x, where x is orthogonal to d, of known length and of
@@ -248,24 +249,25 @@ class RotationSolver : RotationRows {
     const Scalar slope = dot(n, d);
     const Vector3 t_across = t - share * c, n_across = n - slope * per_square * d;
     const Scalar radius = dot(t_across, t_across), size = dot(n_across, n_across);
-    if (!(at_start(radius) > kRegular * at_start(dot(t, t))) ||
-        !(at_start(size) > kRegular * at_start(dot(n, n))))
-      return kDead;
+    if (!(at_start(radius) > kRegular * at_start(dot(t, t)))) return kDead;
+    if (!(at_start(size) > kRegular * at_start(dot(n, n)))) return kDead;
     roots_.require(size, false);
     const Scalar per_size = number(1) / size, gamma = target - share * slope, along = gamma * per_size;
     const Vector3 sideways = cross(d, n_across);
-    const auto off = roots_.signed_root((radius - along * gamma) * per_size * per_square,
-                                        dot(turned_at_start(t), sideways), radius * per_size * per_square);
+    const Scalar off_square = (radius - along * gamma) * per_size * per_square,
+                 side = dot(turned_at_start(t), sideways);
+    const auto off = roots_.signed_root(off_square, side, radius * per_size * per_square);
     if (!off) return kDead;
     const Scalar per_length = reciprocal_root(square), per_width = reciprocal_root(radius);
-    const Vector3 e1 = per_length * d, e2 = along * per_width * n_across + *off * per_width * sideways;
+    const Vector3 e1 = per_length * d, e2 = sum({along * per_width * n_across, *off * per_width * sideways});
     const Vector3 f1 = per_length * c, f2 = per_width * t_across;
     const Vector3 e3 = cross(e1, e2), f3 = cross(f1, f2);
-    const Quaternion q = quaternion_of({e1, e2, e3}) * conjugate(quaternion_of({f1, f2, f3}));
+    const Quaternion of_e = quaternion_of({e1, e2, e3}), of_f = quaternion_of({f1, f2, f3});
+    const Quaternion q = of_e * conjugate(of_f);
     const double sign = at_start(q.w) * quaternion_[0] + at_start(q.x) * quaternion_[1] +
                         at_start(q.y) * quaternion_[2] + at_start(q.z) * quaternion_[3];
     Solution solution{{}, roots_.conditions()};
-    const auto column = [&](std::size_t j) { return f1[j] * e1 + f2[j] * e2 + f3[j] * e3; };
+    const auto column = [&](std::size_t j) { return sum({f1[j] * e1, f2[j] * e2, f3[j] * e3}); };
     solution.rotation = Matrix3{{column(0), column(1), column(2)}};
     if (scalar_) solution.unknowns.push_back(*scalar_);
     for (const Scalar entry : {q.w, q.x, q.y, q.z})
@@ -273,7 +275,10 @@ class RotationSolver : RotationRows {
     return solution;
   }
 
-  Scalar reciprocal_root(Scalar value) { return folded(number(1) / square_root(value)); }
+  Scalar reciprocal_root(Scalar value) {
+    const Scalar root = square_root(value);
+    return folded(number(1) / root);
+  }
 
   /// Of the rotation matrix with these columns, from the entry that is largest at the initial state.
   Quaternion quaternion_of(const Matrix3& m) {
@@ -287,13 +292,13 @@ class RotationSolver : RotationRows {
       if (at_start(squares[k]) > at_start(squares[largest])) largest = k;
     const Scalar root = folded(square_root(squares[largest])), part = number(0.5) / root;
     Scalar entries[4];
-    const auto sum = [&](std::size_t i, std::size_t j) { return part * (at(i, j) + at(j, i)); };
+    const auto both = [&](std::size_t i, std::size_t j) { return part * (at(i, j) + at(j, i)); };
     const auto difference = [&](std::size_t i, std::size_t j) { return part * (at(j, i) - at(i, j)); };
     if (largest == 0) {
       entries[1] = difference(1, 2), entries[2] = difference(2, 0), entries[3] = difference(0, 1);
     } else {
       const std::size_t i = largest - 1, j = (i + 1) % 3, k = (i + 2) % 3;
-      entries[0] = difference(j, k), entries[1 + j] = sum(i, j), entries[1 + k] = sum(i, k);
+      entries[0] = difference(j, k), entries[1 + j] = both(i, j), entries[1 + k] = both(i, k);
     }
     entries[largest] = 0.5 * root;
     roots_.require(squares[largest], false);

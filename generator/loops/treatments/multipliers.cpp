@@ -41,8 +41,10 @@ MultiplierSolver::MultiplierSolver(ir::Builder& builder, const LoopSystem& syste
       corrections_(regularisation.corrections),
       mass_(builder, M),
       V_(lowered_rows(constraints, rows)),
-      schur_(builder, products(), diagonal(builder, system.plan, rows, regularisation.size),
-             sharing(system.plan, rows, regularisation.size)) {}
+      schur_([&] {
+        const Column weights = diagonal(builder, system.plan, rows, regularisation.size);
+        return SchurFactors(builder, products(), weights, sharing(system.plan, rows, regularisation.size));
+      }()) {}
 
 std::vector<Column> MultiplierSolver::lowered_rows(const ConstraintValues& constraints,
                                                    const std::vector<std::size_t>& rows) const {

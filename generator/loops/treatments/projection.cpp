@@ -35,7 +35,8 @@ ir::Program projection_program(const LoopSystem& system) {
   const MultiplierSolver solver(builder, system, tree_mass_matrix(builder, system), here, rows,
                                 {system.plan.closing_regularisation, 0});
   const auto correction = [&](const Column& c) {
-    return solver.accelerations(Column(n, builder.literal(0)), solver.corrections(c));
+    const Column forces = solver.corrections(c);
+    return solver.accelerations(Column(n, builder.literal(0)), forces);
   };
   Column g;
   for (const std::size_t r : rows) g.push_back(here.g(r));

@@ -88,7 +88,7 @@ void SchurFactors::invert_shared(const std::vector<Column>& S) {
   for (std::size_t i = 0; i < sharing_.rows.size(); ++i) {
     inverse_.emplace_back();
     for (std::size_t j = 0; j < sharing_.rows.size(); ++j) {
-      const Signed weights = builder_.multiply(weight(i), weight(j));
+      const Signed second = weight(j), weights = builder_.multiply(weight(i), second);
       inverse_[i].push_back(
           builder_.multiply(builder_.multiply(weights, S[sharing_.rows[i]][sharing_.rows[j]]), inverse));
     }
