@@ -71,6 +71,13 @@ std::vector<GradientReal> displaced_positions(const model::Tangent& tangent, con
   return y;
 }
 
+/// `points`, at rest; as found where there are none.
+template <class Number>
+typename Evaluation<Number>::HeldValue held_at(const HeldPoints& points) {
+  if (points.empty()) return {};
+  return [&points](std::size_t i, const Number&) -> Number { return {points.at(i)}; };
+}
+
 /// Calls `use` with the number of each row that binds velocities alone, and what it keeps at zero.
 template <class Use>
 void for_each_velocity(const Equations& closures, const Use& use) {
@@ -108,14 +115,14 @@ std::vector<Number> rows_of(const Equations& closures, const Evaluation<Number>&
 
 /// G and g_t of rows that bind velocities alone: their value at rest, and how it changes with z.
 void add_velocity_rows(const Equations& closures, std::size_t displacements, const LeafValue& leaf,
-                       ClosureJacobian& jacobian) {
+                       const HeldPoints& points, ClosureJacobian& jacobian) {
+  const GradientPrecision::LeafValue by_velocity = [&](LeafKind kind, std::size_t i) -> GradientReal {
+    if (kind == LeafKind::kVelocity && i < displacements) return {0, {{i, 1}}};
+    return {leaf(kind, i)};
+  };
   std::optional<GradientPrecision> at;
   for_each_velocity(closures, [&](std::size_t row, const Ex& velocity) {
-    if (!at)
-      at.emplace(closures.statements, [&](LeafKind kind, std::size_t i) -> GradientReal {
-        if (kind == LeafKind::kVelocity && i < displacements) return {0, {{i, 1}}};
-        return {leaf(kind, i)};
-      });
+    if (!at) at.emplace(closures.statements, by_velocity, held_at<GradientReal>(points));
     const GradientReal value = at->value(velocity);
     jacobian.g_t[row] = value.value;
     for (const GradientReal::Slope& slope : value.slopes) jacobian.G[row][slope.variable] = slope.by;
@@ -125,17 +132,19 @@ void add_velocity_rows(const Equations& closures, std::size_t displacements, con
 }  // namespace
 
 ClosureJacobian closure_jacobian(const Equations& closures, const model::Tangent& tangent,
-                                 std::size_t velocity_count, const LeafValue& leaf) {
+                                 std::size_t velocity_count, const LeafValue& leaf,
+                                 const HeldPoints& points) {
   const std::vector<GradientReal> y = displaced_positions(tangent, leaf);
   const std::map<std::size_t, MovingReal> states = leading_states(closures, leaf);
-  const GradientPrecision at(closures.statements, [&](LeafKind kind, std::size_t i) -> GradientReal {
+  const GradientPrecision::LeafValue displaced = [&](LeafKind kind, std::size_t i) -> GradientReal {
     if (kind == LeafKind::kPosition) return y[i];
     if (kind == LeafKind::kTime) return {leaf(kind, i), {{velocity_count, 1}}};
     const auto state = states.find(i);
     if (kind == LeafKind::kVelocity && state != states.end())
       return {state->second.value, {{velocity_count, state->second.first}}};
     return {leaf(kind, i)};
-  });
+  };
+  const GradientPrecision at(closures.statements, displaced, held_at<GradientReal>(points));
   ClosureJacobian jacobian;
   for (const GradientReal& row : rows_of(closures, at)) {
     std::vector<ScaledReal> by(velocity_count + 1);
@@ -145,7 +154,8 @@ ClosureJacobian closure_jacobian(const Equations& closures, const model::Tangent
     by.pop_back();
     jacobian.G.push_back(std::move(by));
   }
-  add_velocity_rows(closures, tangent.scalars.size() + 3 * tangent.quaternions.size(), leaf, jacobian);
+  add_velocity_rows(closures, tangent.scalars.size() + 3 * tangent.quaternions.size(), leaf, points,
+                    jacobian);
   return jacobian;
 }
 
@@ -167,7 +177,8 @@ std::map<std::size_t, ScaledReal> found_rates(const Equations& closures, const M
 }  // namespace
 
 ClosureMotion closure_motion(const Equations& closures, const model::Tangent& tangent,
-                             const std::vector<ScaledReal>& z, const LeafValue& leaf) {
+                             const std::vector<ScaledReal>& z, const LeafValue& leaf,
+                             const HeldPoints& points) {
   const std::vector<MovingReal> y = moving_positions(tangent, z, leaf);
   const std::map<std::size_t, MovingReal> states = leading_states(closures, leaf);
   const MovingPrecision::LeafValue moving = [&](LeafKind kind, std::size_t i) -> MovingReal {
@@ -177,10 +188,10 @@ ClosureMotion closure_motion(const Equations& closures, const model::Tangent& ta
     if (kind == LeafKind::kVelocity && state != states.end()) return state->second;
     return {kind == LeafKind::kVelocity ? z[i] : leaf(kind, i)};
   };
-  const MovingPrecision held(closures.statements, moving);
+  const MovingPrecision held(closures.statements, moving, held_at<MovingReal>(points));
   const std::map<std::size_t, ScaledReal> rates = found_rates(closures, held);
   const MovingPrecision::HeldValue found = [&](std::size_t i, const MovingReal& at) -> MovingReal {
-    return {at.value, rates.at(i)};
+    return {points.empty() ? at.value : points.at(i), rates.at(i)};
   };
   const std::optional<MovingPrecision> both =
       rates.empty() ? std::nullopt
@@ -208,8 +219,36 @@ ClosureMotion closure_motion(const Equations& closures, const model::Tangent& ta
   return motion;
 }
 
-std::vector<ScaledReal> closure_values(const Equations& closures, const LeafValue& leaf) {
-  return rows_of(closures, HighPrecision(closures.statements, leaf));
+std::vector<ScaledReal> closure_values(const Equations& closures, const LeafValue& leaf,
+                                       const HeldPoints& points) {
+  return rows_of(closures, HighPrecision(closures.statements, leaf, held_at<ScaledReal>(points)));
+}
+
+HeldPoints found_points(const Equations& closures, const LeafValue& leaf) {
+  const HighPrecision at(closures.statements, leaf);
+  HeldPoints points;
+  for (const LoopClosure& loop : closures.closures)
+    for (const Search& search : loop.searches)
+      for (const Ex& number : search.found) points.push_back(at.value(number));
+  return points;
+}
+
+HeldPoints moved_points(const Equations& closures, const LeafValue& leaf, const LeafValue& moved) {
+  HeldPoints points = found_points(closures, leaf);
+  if (points.empty()) return points;
+  const HighPrecision here(closures.statements, leaf),
+      there(closures.statements, moved, held_at<ScaledReal>(points));
+  HeldPoints result = points;
+  std::size_t i = 0;
+  for (const LoopClosure& loop : closures.closures)
+    for (const Search& search : loop.searches)
+      for (const auto& inverse : search.inverse) {
+        for (std::size_t k = 0; k < 2; ++k)
+          result[i] +=
+              here.value(inverse[k]) * (there.value(search.misfit[k]) - here.value(search.misfit[k]));
+        ++i;
+      }
+  return result;
 }
 
 ScaledReal closure_misses(const Equations& closures, const LeafValue& leaf) {

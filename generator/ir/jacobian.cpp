@@ -15,8 +15,13 @@ namespace {
 
 class Graph {
  public:
-  Graph(Builder& builder, const std::vector<Signed>& values, const std::vector<Seed>& seeds)
-      : builder_(builder), count_(builder.program().nodes.size()), rows_(values.size()) {
+  Graph(Builder& builder, const std::vector<Signed>& values, const std::vector<Seed>& seeds,
+        const std::vector<Signed>& held)
+      : builder_(builder),
+        count_(builder.program().nodes.size()),
+        rows_(values.size()),
+        is_held_(count_, false) {
+    for (const Signed& value : held) is_held_[value.value.value] = true;
     std::size_t columns = 0;
     for (const Seed& seed : seeds) columns = std::max(columns, seed.column + 1);
     operands_.resize(count_ + columns + rows_);
@@ -28,7 +33,7 @@ class Graph {
         connect(column(seed.column), seed.leaf.value.value,
                 seed.leaf.negative ? -seed.partial : seed.partial);
     for (std::size_t i = 0; i < count_; ++i)
-      if (needed[i]) add_partials(i);
+      if (needed[i] && !is_held_[i]) add_partials(i);
     for (std::size_t r = 0; r < rows_; ++r)
       if (is_active(values[r].value.value)) {
         const Signed one = builder_.literal(1);
@@ -56,7 +61,7 @@ class Graph {
     std::vector<bool> needed(count_, false);
     for (const Signed& value : values) needed[value.value.value] = true;
     for (std::size_t i = count_; i-- > 0;) {
-      if (!needed[i]) continue;
+      if (!needed[i] || is_held_[i]) continue;
       const Node& node = builder_.program().nodes[i];
       if (operand_count(node.op) >= 1) needed[node.a.value] = true;
       if (operand_count(node.op) == 2) needed[node.b.value] = true;
@@ -335,6 +340,7 @@ class Graph {
   std::map<std::size_t, Parts> parts_;
   std::map<std::size_t, Signed> some_;
   std::size_t count_, columns_ = 0, rows_;
+  std::vector<bool> is_held_;
   std::vector<std::map<std::size_t, Signed>> operands_;  // of each vertex, with the partial derivative by it
   std::vector<std::set<std::size_t>> users_;
 };
@@ -342,8 +348,9 @@ class Graph {
 }  // namespace
 
 JacobianEntries differentiate(Builder& builder, const std::vector<Signed>& values,
-                              const std::vector<Seed>& seeds, EliminationOrder order) {
-  return Graph(builder, values, seeds).eliminate(order);
+                              const std::vector<Seed>& seeds, EliminationOrder order,
+                              const std::vector<Signed>& held) {
+  return Graph(builder, values, seeds, held).eliminate(order);
 }
 
 }  // namespace jourdain::ir

@@ -44,6 +44,12 @@ std::size_t remaining_operations(const Program& program) {
   return ir::count_operations(passes::optimise_once(std::move(module)).functions[0]).arithmetic();
 }
 
+std::size_t emitted_operations(const Program& program) {
+  ir::Module module;
+  module.functions = {program};
+  return ir::count_operations(passes::optimise(std::move(module)).module.functions[0]).arithmetic();
+}
+
 /// On the robot arms the first quarter of the program goes forward: rotations and velocities.
 Program cheapest(const std::function<Program(EliminationOrder)>& build) {
   constexpr std::size_t kLarge = 10000;  // operations beyond which few orders are tried

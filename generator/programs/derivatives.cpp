@@ -12,6 +12,7 @@
 #include "lowering/lower.hpp"
 #include "passes/fingerprints.hpp"
 #include "passes/rewrite.hpp"
+#include "programs/held_values.hpp"
 
 namespace jourdain::programs {
 
@@ -47,8 +48,10 @@ using Matrix = std::vector<Column>;  // by row
 /// One program under construction.
 class Assembly {
  public:
-  Assembly(const DerivativeSources& sources, DerivativeTerms terms, EliminationOrder order)
+  /// By the equations with multipliers where there are some and `by_equations` says so.
+  Assembly(const DerivativeSources& sources, DerivativeTerms terms, EliminationOrder order, bool by_equations)
       : sources_(sources),
+        constrained_(by_equations && sources.constrained ? &*sources.constrained : nullptr),
         terms_(terms),
         order_(order),
         columns_{sources.facts.velocities.size(), sources.facts.states.size(), sources.facts.inputs.size(),
@@ -133,6 +136,33 @@ class Assembly {
     return list;
   }
 
+  /// How accelerations and multipliers change with the columns: by velocity, then row.
+  JacobianEntries changes_of_motion(Builder& builder, const Column& motion) const {
+    Builder apart;  // where accelerations and multipliers are leaves
+    const std::vector<ir::Seed> list = seeds(apart);
+    const Column equations = ir::insert(apart, constrained_->equations);
+    const JacobianEntries slopes =
+        held_points(apart, sources_.searches, list, order_).differentiated(apart, equations, list, order_);
+    const std::size_t n = columns_.velocities;
+    const auto instead = [n](const Column& of) {
+      return [&of, n](LeafKind kind, std::size_t i) -> std::optional<Signed> {
+        if (kind == LeafKind::kAcceleration) return of[i];
+        return kind == LeafKind::kMultiplier ? std::optional(of[n + i]) : std::nullopt;
+      };
+    };
+    const Column values = ir::insert(builder, jacobian_program(apart, slopes), instead(motion));
+    std::vector<Column> right(columns_.time_column() + 1, Column(motion.size(), builder.literal(0)));
+    std::size_t k = 0;
+    for (const auto& [at, value] : slopes) right[at.second][at.first] = values[k++];
+    JacobianEntries changes;
+    for (std::size_t c = 0; c < right.size(); ++c) {
+      const Column x = ir::insert(builder, constrained_->change, instead(right[c]));
+      for (std::size_t i = 0; i < x.size(); ++i)
+        if (!builder.is_literal(x[i], 0)) changes[{i, c}] = x[i];
+    }
+    return changes;
+  }
+
   /// Derivatives of `values` at constant accelerations, as values of this builder.
   JacobianEntries differentiated(const Program& values, bool by_acceleration = false) {
     // In a builder of its own, where ż is a leaf: accelerations inserted before would be followed to their own leaves.
@@ -142,13 +172,25 @@ class Assembly {
     const std::size_t first = columns_.time_column() + 1;
     for (std::size_t i = 0; by_acceleration && i < columns_.velocities; ++i)
       list.push_back({builder.leaf(LeafKind::kAcceleration, i), first + i, builder.literal(1)});
-    const JacobianEntries entries = ir::differentiate(builder, outputs, list, order_);
-    for (const auto& [at, value] : entries)
-      builder.output("J", static_cast<int>(at.first), static_cast<int>(at.second), value);
-    const Column moved = insert(passes::remove_dead_code(builder.finish("derivatives")));
+    HeldValues held = held_points(builder, sources_.searches, list, order_);
+    if (constrained_) {
+      const Column motion = ir::insert(builder, constrained_->motion);
+      JacobianEntries changes;
+      for (const auto& [at, change] : changes_of_motion(builder, motion))
+        if (at.first >= columns_.velocities) changes[{at.first - columns_.velocities, at.second}] = change;
+      held.add(builder,
+               Column(motion.begin() + static_cast<std::ptrdiff_t>(columns_.velocities), motion.end()),
+               changes);
+    }
+    return moved(builder, held.differentiated(builder, outputs, std::move(list), order_));
+  }
+
+  /// Values of `builder` as values of this builder.
+  JacobianEntries moved(Builder& builder, const JacobianEntries& entries) {
+    const Column values = insert(jacobian_program(builder, entries));
     JacobianEntries result;
     std::size_t k = 0;
-    for (const auto& [at, value] : entries) result[at] = moved[k++];
+    for (const auto& [at, value] : entries) result[at] = values[k++];
     return result;
   }
 
@@ -169,6 +211,12 @@ class Assembly {
   /// ∂ż by all columns.
   JacobianEntries acceleration_derivatives() {
     zdot_ = insert(sources_.zdot);
+    if (constrained_) {
+      Builder builder;
+      JacobianEntries changes = changes_of_motion(builder, ir::insert(builder, constrained_->motion));
+      changes.erase(changes.lower_bound({columns_.velocities, 0}), changes.end());
+      return moved(builder, changes);
+    }
     const JacobianEntries r = differentiated(sources_.residual);
     const ir::SymmetricFactors M(builder_, mass_matrix());
     JacobianEntries J;
@@ -238,6 +286,7 @@ class Assembly {
   }
 
   const DerivativeSources& sources_;
+  const ConstrainedMotion* constrained_;
   DerivativeTerms terms_;
   EliminationOrder order_;
   Columns columns_;
@@ -286,12 +335,29 @@ DerivativeSources tree_sources(const model::Mechanism& mechanism,
 namespace {
 
 Program derivative_program(const DerivativeSources& sources, FunctionId function, DerivativeTerms terms,
-                           EliminationOrder order) {
-  Assembly assembly(sources, terms, order);
+                           EliminationOrder order, bool by_equations) {
+  Assembly assembly(sources, terms, order, by_equations);
   if (function == FunctionId::kResidualDerivatives) return assembly.residual_derivatives();
   if (function == FunctionId::kForwardDynamicsDerivatives) return assembly.forward_dynamics_derivatives();
   JD_CHECK(function == FunctionId::kLinearize, "no derivatives for '{}'", name_of(function));
   return assembly.linearize();
+}
+
+/// By the operations that the multipliers are computed in, or by the equations that they solve, whichever takes fewer.
+Program cheapest_program(const DerivativeSources& sources, FunctionId function, DerivativeTerms terms) {
+  constexpr std::size_t kLarge = 10000;  // operations from which on equations take fewer
+  const auto cheapest = [&](bool by_equations) {
+    return lowering::cheapest([&](EliminationOrder order) {
+      return derivative_program(sources, function, terms, order, by_equations);
+    });
+  };
+  if (!sources.constrained) return cheapest(false);
+  Program by_equations = cheapest(true);
+  if (lowering::remaining_operations(by_equations) >= kLarge) return by_equations;
+  Program by_operations = cheapest(false);
+  const bool is_fewer =
+      lowering::emitted_operations(by_equations) < lowering::emitted_operations(by_operations);
+  return is_fewer ? by_equations : by_operations;
 }
 
 }  // namespace
@@ -304,8 +370,7 @@ std::vector<Program> derivative_programs(const DerivativeSources& sources,
     if (*function.id == FunctionId::kResidual)
       programs.push_back(sources.residual);
     else
-      programs.push_back(lowering::cheapest(
-          [&](EliminationOrder order) { return derivative_program(sources, *function.id, terms, order); }));
+      programs.push_back(cheapest_program(sources, *function.id, terms));
   }
   return programs;
 }

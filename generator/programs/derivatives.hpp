@@ -2,10 +2,12 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "dynamics/equations.hpp"
 #include "ir/program.hpp"
+#include "loops/rows/search_programs.hpp"
 #include "lowering/cheapest_elimination.hpp"
 #include "model/mechanism.hpp"
 #include "programs/functions.hpp"
@@ -16,6 +18,14 @@ namespace jourdain::programs {
 enum class DerivativeTerms {
   kAll,
   kApplied,  ///< those of springs, dampers and other applied forces: where stiffness comes from
+};
+
+/// M ż + Gᵀ λ = k̄ − q̄, G ż + γ = 0 with multipliers λ of some rows.
+struct ConstrainedMotion {
+  ir::Program motion;     ///< ("zdot", k), ("lambda", i)
+  ir::Program equations;  ///< ("r", k), ("c", i): what is zero then, with ż and λ as leaves
+  ir::Program
+      change;  ///< ("zdot", k), ("lambda", i): their changes by those of r (leaves ż) and c (leaves λ)
 };
 
 /// What is differentiated: the equations M ż = k̄ − q̄ as programs over their own coordinates.
@@ -29,6 +39,8 @@ struct DerivativeSources {
   /// How position leaves depend on the displacements and, beyond that, on time: the column after the last
   /// velocity, input.
   std::function<std::vector<ir::Seed>(ir::Builder&, std::size_t time_column)> position_seeds;
+  loops::SearchPrograms searches;                ///< points in them that are looked for
+  std::optional<ConstrainedMotion> constrained;  ///< with multipliers
 };
 
 /// One program for each of `functions` that holds derivatives or is made for them; the others are passed over.

@@ -5,10 +5,10 @@
 #include "ir/compose.hpp"
 #include "loops/rows/regular_rows.hpp"
 #include "loops/treatments/dependence.hpp"
-#include "loops/treatments/multipliers.hpp"
 #include "loops/treatments/projection.hpp"
 #include "passes/rewrite.hpp"
 #include "programs/closed_system.hpp"
+#include "programs/constrained_equations.hpp"
 #include "programs/loop_outputs.hpp"
 #include "support/check.hpp"
 #include "support/matrix_index.hpp"
@@ -77,16 +77,12 @@ class LoopProgram {
   void write_outputs_at_accelerations() { write_outputs(acceleration_leaves()); }
 
   ir::Column zdot() {
-    if (!system_.plan.is_reduced()) return constrained_motion(system_.plan.solved_rows()).zdot;
+    if (!system_.plan.is_reduced()) return solved_equations().motion().zdot;
     if (dependence_.independent_count() == 0) return {};
     return ir::SymmetricFactors(builder_, mass_matrix()).solved(forces());
   }
 
  private:
-  struct Motion {
-    ir::Column zdot, lambda;
-  };
-
   void write(const char* name, const ir::Column& values) {
     for (std::size_t i = 0; i < values.size(); ++i) builder_.output(name, static_cast<int>(i), -1, values[i]);
   }
@@ -161,42 +157,13 @@ class LoopProgram {
   }
 
   ir::Column residual(const ir::Column& zdot) {
-    ir::Column r = dependence_.projected(vector(FunctionId::kResidual, dependence_.accelerations(zdot)));
-    if (system_.plan.is_reduced()) return r;
-    const std::vector<std::size_t> rows = system_.plan.solved_rows();
-    const ir::Column lambda = constrained_motion(rows).lambda;
-    const loops::ConstraintValues constraints(builder_, system_);
-    for (std::size_t k = 0; k < r.size(); ++k)
-      for (std::size_t i = 0; i < rows.size(); ++i)
-        r[k] = builder_.add(r[k], builder_.multiply(constraints.G(rows[i], k), lambda[i]));
-    return r;
+    if (system_.plan.is_reduced())
+      return dependence_.projected(vector(FunctionId::kResidual, dependence_.accelerations(zdot)));
+    const ConstrainedEquations equations = solved_equations();
+    return equations.residual(zdot, equations.motion().lambda);
   }
 
-  /// Rounding is divided by it where rows are redundant.
-  loops::Regularisation regularisation(const std::vector<std::size_t>& rows) const {
-    constexpr double kRedundant = 1e3;
-    const loops::LoopPlan& plan = system_.plan;
-    if (rows.size() == plan.solved_rows().size()) return {plan.regularisation, plan.corrections};
-    return {kRedundant * plan.closing_regularisation, 2};
-  }
-
-  Motion constrained_motion(const std::vector<std::size_t>& rows) {
-    const loops::ConstraintValues constraints(builder_, system_);
-    const loops::MultiplierSolver solver(builder_, system_, loops::tree_mass_matrix(builder_, system_),
-                                         constraints, rows, regularisation(rows));
-    const loops::ConstraintRates rates = loops::constraint_rates(builder_, system_, dependence_.z());
-    const ir::Column pushed = solver.lowered(forces());
-    ir::Column c = solver.constrained(pushed);
-    const double s = system_.plan.stabilisation;
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-      const std::size_t r = rows[k];
-      c[k] = builder_.add(c[k], rates.gamma[r]);
-      c[k] = builder_.add(c[k], builder_.multiply(builder_.literal(2 * s), rates.rate[r]));
-      c[k] = builder_.add(c[k], builder_.multiply(builder_.literal(s * s), constraints.g(r)));
-    }
-    const ir::Column lambda = solver.multipliers(c);
-    return {solver.accelerations(pushed, lambda), lambda};
-  }
+  ConstrainedEquations solved_equations() { return {builder_, system_, system_.plan.solved_rows()}; }
 
   /// All rows that agree with each other; where some share, those that are solved for.
   std::vector<std::size_t> rows_with_forces() const {
@@ -208,7 +175,7 @@ class LoopProgram {
   ir::Column least_multipliers() {
     const std::vector<std::size_t> rows = rows_with_forces();
     ir::Column lambda(system_.constraints.value.outputs.size(), builder_.literal(0));
-    const ir::Column found = constrained_motion(rows).lambda;
+    const ir::Column found = ConstrainedEquations(builder_, system_, rows).motion().lambda;
     for (std::size_t k = 0; k < rows.size(); ++k) lambda[rows[k]] = found[k];
     return lambda;
   }
@@ -260,8 +227,8 @@ class LoopProgram {
 
   void write_outputs(const ir::Column& zdot) {
     const Program tree = system_.tree(FunctionId::kOutputs);
-    const ir::Column values = insert(tree, dependence_.accelerations(zdot),
-                                     takes_multipliers(tree) ? constraint_forces(zdot) : ir::Column());
+    const ir::Column forces = takes_multipliers(tree) ? constraint_forces(zdot) : ir::Column();
+    const ir::Column values = insert(tree, dependence_.accelerations(zdot), forces);
     programs::write_outputs(builder_, system_, dependence_, tree, values);
   }
 
@@ -394,6 +361,9 @@ DerivativeSources derivative_sources(const loops::LoopSystem& system) {
   sources.position_seeds = [&system](Builder& builder, std::size_t time_column) {
     return independent_seeds(system, builder, time_column);
   };
+  sources.searches = system.constraints.searches;
+  if (!system.plan.is_reduced() && system.plan.sharing.empty())
+    sources.constrained = constrained_motion(system);
   return sources;
 }
 

@@ -59,6 +59,13 @@ void Agreement::fail(const std::string& sentence) {
     failures_.push_back(sentence);
 }
 
+bool Agreement::agree(const std::vector<ScaledReal>& values, const std::vector<ScaledReal>& expected) {
+  const long double floor = kNothing * std::max(largest_scale(values), largest_scale(expected));
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!(apart(values[i], expected[i], floor) <= static_cast<double>(kAlgebra))) return false;
+  return true;
+}
+
 void Agreement::same(const std::string& function, const std::string& oracle,
                      const std::vector<ScaledReal>& values, const std::vector<ScaledReal>& expected) {
   JD_CHECK(values.size() == expected.size(), "{}: {} numbers for {}", function, values.size(),

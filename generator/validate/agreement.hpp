@@ -33,6 +33,8 @@ struct Compared {
 
 class Agreement {
  public:
+  /// To rounding of the algebra?
+  static bool agree(const std::vector<ScaledReal>& values, const std::vector<ScaledReal>& expected);
   /// All numbers of `function` at one state, in 77 digits. Where one of both is zero throughout, as in a
   /// mechanism that starts in equilibrium, what is left of zero has no scale but that of the states before:
   /// such a state comes last.

@@ -42,6 +42,8 @@ struct Expected {
   bool scales_are_unknown = false;
   /// Numbers of which it only knows that they are positive and no more than 1.
   std::vector<std::size_t> shares = {};
+  /// What it may be as well, by another rule.
+  std::function<Expected()> otherwise = {};
 };
 
 /// Of a program with one part.

@@ -136,9 +136,9 @@ class Lowered {
   }
 
   /// ("misfit", k) and ("inverse", k, 0 or 1), in the same order.
-  Program searches() const {
+  Program misfits() const {
     return by_search(
-        "searches", Held::kLeaves, [](LoopLowering& program, const auto& search, std::size_t l, int k) {
+        "misfits", Held::kLeaves, [](LoopLowering& program, const auto& search, std::size_t l, int k) {
           for (int i = 0; i < 2; ++i) {
             const auto row = static_cast<std::size_t>(i);
             program.add(l, {"misfit", 2 * k + i, -1, search.misfit[row]});
@@ -230,8 +230,9 @@ std::vector<ConstraintPrograms> constraint_programs(const model::Mechanism& mech
   programs.senses = lowered.senses();
   programs.spans = lowered.spans();
   programs.misses = lowered.misses();
+  programs.searches = {lowered.found(), lowered.misfits()};
   const RowPrograms rows = {lowered.values(Held::kLeaves), lowered.velocities(Held::kLeaves),
-                            lowered.leading(), lowered.searches(), lowered.found()};
+                            lowered.leading(), programs.searches};
   const std::vector<Program> jacobians = in_order(
       lowering::cheapest([&](EliminationOrder o) { return differentiated_jacobian(tangent, rows, o); }),
       lowered.jacobian());

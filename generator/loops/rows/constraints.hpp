@@ -5,6 +5,7 @@
 
 #include "dynamics/equations.hpp"
 #include "ir/program.hpp"
+#include "loops/rows/search_programs.hpp"
 #include "model/mechanism.hpp"
 
 namespace jourdain::loops {
@@ -18,6 +19,7 @@ struct ConstraintPrograms {
       spans;  ///< of rods: ("span", row, axis) from end to end, axes of the carrier's link, and ("length", row)
   ir::Program velocities;  ///< ("v", row), rows that bind velocities alone: their G z + g_t; their g is 0
   ir::Program misses;  ///< ("miss", loop, number), ("determinant", …), ("trace", …): of dynamics::Search
+  SearchPrograms searches;
   ir::Program jacobian;  ///< ("G", row, velocity), ("g_t", row)
   ir::Program rates;     ///< ("rate", row) and ("gamma", row), every row
 };

@@ -56,8 +56,9 @@ class Differentiation {
       rate[at.first] = builder_.add(rate[at.first], term);
     }
     std::vector<Seed> path = path_seeds();
-    const std::vector<Seed> found = found_seeds(path);
-    path.insert(path.end(), found.begin(), found.end());
+    const std::vector<Signed> held = held_points();
+    for (const auto& [at, move] : changes_of_found(builder_, rows_.searches, held, path, order_))
+      path.push_back({held[at.first], at.second, move});
     const JacobianEntries along = ir::differentiate(builder_, rate, path, order_);
     for (std::size_t r = 0; r < rate.size(); ++r) {
       builder_.output("rate", static_cast<int>(r), -1, rate[r]);
@@ -108,37 +109,19 @@ class Differentiation {
     return seeds;
   }
 
-  /// Points that are looked for move as their misfits stay at zero.
-  std::vector<Seed> found_seeds(const std::vector<Seed>& path) {
-    const std::vector<Signed> values = ir::insert(builder_, rows_.searches);
-    std::vector<Signed> misfits;
-    for (std::size_t k = 0; k < values.size(); ++k)
-      if (rows_.searches.outputs[k].name == "misfit") misfits.push_back(values[k]);
-    const JacobianEntries rates = ir::differentiate(builder_, misfits, path, order_);
-    const auto rate = [&](std::size_t k) {
-      const auto it = rates.find({k, 0});
-      return it == rates.end() ? builder_.literal(0) : it->second;
-    };
-    std::vector<Signed> moves(misfits.size(), builder_.literal(0));
-    for (std::size_t k = 0; k < values.size(); ++k) {
-      const ir::Output& output = rows_.searches.outputs[k];
-      if (output.name != "inverse") continue;
-      const std::size_t row = support::subscript(output.row),
-                        other = row / 2 * 2 + support::subscript(output.column);
-      moves[row] = builder_.add(moves[row], builder_.multiply(values[k], rate(other)));
-    }
-    std::vector<Seed> seeds;
-    for (std::size_t k = 0; k < moves.size(); ++k)
-      seeds.push_back({builder_.leaf(LeafKind::kHeld, k), 0, moves[k]});
-    return seeds;
+  std::vector<Signed> held_points() {
+    std::vector<Signed> leaves;
+    for (std::size_t k = 0; k < rows_.searches.found.outputs.size(); ++k)
+      leaves.push_back(builder_.leaf(LeafKind::kHeld, k));
+    return leaves;
   }
 
   /// With the points found in place of those held.
   Program finish(const char* name) {
     Program program = passes::remove_dead_code(builder_.finish(name));
-    if (rows_.found.outputs.empty()) return program;
+    if (rows_.searches.is_empty()) return program;
     Builder whole;
-    const std::vector<Signed> found = ir::insert(whole, rows_.found);
+    const std::vector<Signed> found = ir::insert(whole, rows_.searches.found);
     const std::vector<Signed> values = ir::insert(whole, program, [&](LeafKind kind, std::size_t k) {
       return kind == LeafKind::kHeld ? std::optional(found[k]) : std::nullopt;
     });

@@ -3,6 +3,7 @@
 
 #include "ir/jacobian.hpp"
 #include "ir/program.hpp"
+#include "loops/rows/search_programs.hpp"
 #include "model/coordinates.hpp"
 
 namespace jourdain::loops {
@@ -12,8 +13,7 @@ struct RowPrograms {
   ir::Program value;       ///< ("g", row), every row
   ir::Program velocities;  ///< ("v", row), of those that bind velocities alone
   ir::Program leading;     ///< ("rate", entry) of states that motions follow
-  ir::Program searches;    ///< ("misfit", k) and ("inverse", k, 0 or 1) of dynamics::Search, two by two
-  ir::Program found;       ///< ("found", k), in the same order
+  SearchPrograms searches;
 };
 
 /// ("G", row, velocity), ("g_t", row), as in ConstraintPrograms.

@@ -27,16 +27,23 @@ ExactClosure::ExactClosure(const model::Mechanism& mechanism, const dynamics::Eq
 }
 
 dynamics::ClosureJacobian ExactClosure::jacobian(const ir::LeafValues<ScaledReal>& state) const {
-  return dynamics::closure_jacobian(closures_, tangent_, velocities_, leaves_at(state));
+  return dynamics::closure_jacobian(closures_, tangent_, velocities_, leaves_at(state),
+                                    state[LeafKind::kHeld]);
 }
 
 dynamics::ClosureMotion ExactClosure::motion(const ir::LeafValues<ScaledReal>& state,
                                              const std::vector<ScaledReal>& z) const {
-  return dynamics::closure_motion(closures_, tangent_, z, leaves_at(state));
+  return dynamics::closure_motion(closures_, tangent_, z, leaves_at(state), state[LeafKind::kHeld]);
 }
 
 ExactVector ExactClosure::g(const ir::LeafValues<ScaledReal>& state) const {
-  return to_exact(dynamics::closure_values(closures_, leaves_at(state)));
+  return to_exact(dynamics::closure_values(closures_, leaves_at(state), state[LeafKind::kHeld]));
+}
+
+ir::LeafValues<ScaledReal> ExactClosure::holding(const ir::LeafValues<ScaledReal>& state,
+                                                 ir::LeafValues<ScaledReal> moved) const {
+  moved[LeafKind::kHeld] = dynamics::moved_points(closures_, leaves_at(state), leaves_at(moved));
+  return moved;
 }
 
 ScaledReal ExactClosure::missed(const ir::LeafValues<ScaledReal>& state) const {

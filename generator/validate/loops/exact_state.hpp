@@ -12,7 +12,8 @@ namespace jourdain::validate {
 
 using support::ScaledReal;
 
-/// The constraints of a mechanism, from their symbolic statements. It refers to what it is made from.
+/// The constraints of a mechanism, from their symbolic statements. It refers to what it is made from. Points that are looked
+/// for are those of a state's LeafKind::kHeld where it has them.
 class ExactClosure {
  public:
   ExactClosure(const model::Mechanism& mechanism, const dynamics::Equations& closures,
@@ -31,6 +32,10 @@ class ExactClosure {
   ExactVector g(const ir::LeafValues<ScaledReal>& state) const;
   /// Square of what points that are looked for may be missed by.
   ScaledReal missed(const ir::LeafValues<ScaledReal>& state) const;
+
+  /// `moved` with the points found at `state`, as they move along.
+  ir::LeafValues<ScaledReal> holding(const ir::LeafValues<ScaledReal>& state,
+                                     ir::LeafValues<ScaledReal> moved) const;
 
   /// The positions moved by a displacement of all velocities: q ⊗ (1, d/2), brought to unit length.
   std::vector<ScaledReal> displaced(std::vector<ScaledReal> y, const ExactVector& displacement) const;

@@ -1,5 +1,7 @@
 #include "validate/loops/loop_oracle.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "dynamics/kinematic_functions.hpp"
@@ -86,12 +88,12 @@ std::vector<Expected> LoopOracle::operator()(const ir::Program& program) const {
       return expecting("samples of the equations", samples());
     case FunctionId::kResidualDerivatives:
       return {{"B^T M B", mass_entries(program)},
-              {"differences of the residual", change([](const LoopOracle& o) { return o.residual(); }, true),
-               true}};
+              change_of(
+                  "the residual", [](const LoopOracle& o) { return o.residual(); }, true)};
     case FunctionId::kForwardDynamicsDerivatives:
-      return {
-          {kAccelerations, to_list(accelerations())},
-          {"differences of the accelerations of the constrained system", acceleration_change(false), true}};
+      return {{kAccelerations, to_list(accelerations())},
+              change_of(
+                  kAccelerations, [](const LoopOracle& o) { return o.accelerations(); }, false)};
     case FunctionId::kLinearize:
       return linearization();
     case FunctionId::kCloseLoops:
@@ -102,17 +104,31 @@ std::vector<Expected> LoopOracle::operator()(const ir::Program& program) const {
   return {};
 }
 
-std::vector<ScaledReal> LoopOracle::acceleration_change(bool with_inputs_and_time) const {
-  return change([](const LoopOracle& o) { return o.accelerations(); }, with_inputs_and_time);
+std::vector<Expected> LoopOracle::linearization() const {
+  const auto with_kinematics = [rates = displacement_rate()](Expected below) {
+    below.values.insert(below.values.begin(), rates.begin(), rates.end());
+    return below;
+  };
+  Expected rows = with_kinematics(change_of(
+      "the constrained system", [](const LoopOracle& o) { return o.accelerations(); }, true));
+  if (rows.otherwise)
+    rows.otherwise = [with_kinematics, other = rows.otherwise] { return with_kinematics(other()); };
+  return {rows, change_of(
+                    "the outputs of the constrained system",
+                    [](const LoopOracle& o) { return to_exact(o.outputs()); }, true)};
 }
 
-std::vector<Expected> LoopOracle::linearization() const {
-  std::vector<ScaledReal> rows = displacement_rate();
-  const std::vector<ScaledReal> below = acceleration_change(true);
-  rows.insert(rows.end(), below.begin(), below.end());
-  return {{"differences of the constrained system", rows, true},
-          {"differences of the outputs of the constrained system",
-           change([](const LoopOracle& o) { return to_exact(o.outputs()); }, true), true}};
+template <class Numbers>
+Expected LoopOracle::change_of(const char* what, const Numbers& numbers, bool with_inputs_and_time) const {
+  Expected expected{fmt::format("differences of {}", what), change(numbers, with_inputs_and_time), true};
+  if (scene_.plan.is_reduced()) return expected;
+  expected.otherwise = [this, what, numbers, with_inputs_and_time] {
+    const std::vector<std::size_t> rows = scene_.plan.solved_rows();
+    const Beside beside{schur(rows), constrained(rows).lambda};
+    return Expected{fmt::format("differences of {}, multipliers by the equations that they solve", what),
+                    change(numbers, with_inputs_and_time, &beside), true};
+  };
+  return expected;
 }
 
 std::vector<Expected> LoopOracle::kinematics(const ir::Program& program, std::size_t k) const {
@@ -164,18 +180,34 @@ LoopOracle::Constrained LoopOracle::constrained(const std::vector<std::size_t>& 
   const loops::LoopPlan& plan = scene_.plan;
   const bool all = rows.size() != plan.solved_rows().size();
   const double size = all ? kRedundant * plan.closing_regularisation : plan.regularisation;
+  const int corrections = all ? 2 : plan.corrections;
+  const Schur here = schur(rows);
+  ExactVector lambda;
+  if (beside_ && !all) {
+    const ExactVector missing =
+        here.c - here.S * beside_->lambda - (beside_->schur.c - beside_->schur.S * beside_->lambda);
+    lambda = beside_->lambda +
+             loops::SchurSolution(plan, rows, beside_->schur.S, size).corrected(missing, corrections);
+  } else {
+    lambda = loops::SchurSolution(plan, rows, here.S, size).corrected(here.c, corrections);
+  }
+  return {here.free - here.back * lambda, lambda};
+}
+
+LoopOracle::Schur LoopOracle::schur(const std::vector<std::size_t>& rows) const {
+  const loops::LoopPlan& plan = scene_.plan;
   const ExactMatrix G = e_.G(rows, Eigen::all);
   ExactMatrix right(e_.M.rows(), G.rows() + 1);
   right << G.transpose(), e_.k - e_.q;
   const ExactMatrix solution = solved(e_.M, right);
-  const ExactMatrix back = solution.leftCols(G.rows());
-  const ExactVector free = solution.rightCols(1);
+  Schur result;
+  result.back = solution.leftCols(G.rows());
+  result.free = solution.rightCols(1);
+  result.S = G * result.back;
   const ScaledReal s = plan.stabilisation, twice = 2 * plan.stabilisation,
                    square = plan.stabilisation * plan.stabilisation;
-  const ExactVector c = G * free + e_.gamma(rows) + twice * e_.rate(rows) + square * e_.g(rows);
-  const loops::SchurSolution schur(plan, rows, G * back, size);
-  const ExactVector lambda = schur.corrected(c, all ? 2 : plan.corrections);
-  return {free - back * lambda, lambda};
+  result.c = G * result.free + e_.gamma(rows) + twice * e_.rate(rows) + square * e_.g(rows);
+  return result;
 }
 
 ExactVector LoopOracle::accelerations() const {
@@ -306,7 +338,8 @@ std::vector<ScaledReal> LoopOracle::displacement_rate() const {
 }
 
 template <class Numbers>
-std::vector<ScaledReal> LoopOracle::change(const Numbers& numbers, bool with_inputs_and_time) const {
+std::vector<ScaledReal> LoopOracle::change(const Numbers& numbers, bool with_inputs_and_time,
+                                           const Beside* beside) const {
   const ScaledReal h(cln::expt(cln::cl_RA(2), -84));  // (2^-84)^2 and 2^-256 / 2^-84 are both far below 1e-40
   const auto moved = [&](const ScaledReal& step) {
     const dynamics::ExactDirection& d = point_.direction;
@@ -324,8 +357,10 @@ std::vector<ScaledReal> LoopOracle::change(const Numbers& numbers, bool with_inp
     for (std::size_t j = 0; with_inputs_and_time && j < d.input.size(); ++j)
       there.exact[LeafKind::kInput][j] += step * d.input[j];
     if (with_inputs_and_time) there.exact[LeafKind::kTime][0] += step * d.time;
-    there.exact = scene_.closure.closed(std::move(there.exact));
-    return to_list(numbers(LoopOracle(scene_, there)));
+    there.exact = scene_.closure.holding(point_.exact, scene_.closure.closed(std::move(there.exact)));
+    LoopOracle oracle(scene_, there);
+    oracle.beside_ = beside;
+    return to_list(numbers(oracle));
   };
   const std::vector<ScaledReal> above = moved(h), below = moved(-h);
   std::vector<ScaledReal> rates;

@@ -44,11 +44,24 @@ class LoopOracle {
     ExactVector zdot, lambda;
   };
   Constrained constrained(const std::vector<std::size_t>& rows) const;
+
+  /// S and c of S λ = c over some rows, and what they follow from.
+  struct Schur {
+    ExactMatrix back, S;  ///< M⁻¹ Gᵀ, G M⁻¹ Gᵀ
+    ExactVector free, c;  ///< M⁻¹ (k̄ − q̄), G M⁻¹ (k̄ − q̄) + γ + 2 s ġ + s² g
+  };
+  Schur schur(const std::vector<std::size_t>& rows) const;
+
+  /// A state beside which the multipliers of the rows that are solved for change as S λ = c does to first order: by what is
+  /// missing in it, with the regularised inverse of S there.
+  struct Beside {
+    Schur schur;
+    ExactVector lambda;
+  };
   /// λ over all rows at accelerations of the tree.
   ExactVector multipliers(const ExactVector& zdot) const;
   ExactVector of_tree(const ExactVector& zdot) const { return e_.B * zdot + e_.beta; }
   ExactVector residual() const;
-  std::vector<ScaledReal> acceleration_change(bool with_inputs_and_time) const;
   std::vector<Expected> linearization() const;
   std::vector<Expected> kinematics(const ir::Program& program, std::size_t k) const;
   ExactMatrix inverse_inertia(const ExactMatrix& J) const;
@@ -60,11 +73,16 @@ class LoopOracle {
   std::vector<ScaledReal> displacement_rate() const;
   /// How numbers change along the point's direction, by central differences; inputs and time too, or not.
   template <class Numbers>
-  std::vector<ScaledReal> change(const Numbers& numbers, bool with_inputs_and_time) const;
+  std::vector<ScaledReal> change(const Numbers& numbers, bool with_inputs_and_time,
+                                 const Beside* beside = nullptr) const;
+  /// That, or, as well, with multipliers that change to first order as S λ = c does.
+  template <class Numbers>
+  Expected change_of(const char* what, const Numbers& numbers, bool with_inputs_and_time) const;
 
   const LoopScene& scene_;
   const Point& point_;
   ExactMotion e_;
+  const Beside* beside_ = nullptr;
 };
 
 }  // namespace jourdain::validate
