@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 #include <vector>
 
 namespace jourdain::tests {
@@ -97,15 +98,19 @@ class Driver {
           model_, real_, prefix_);
     for (const char* what : {"position", "velocity", "input", "output", "parameter"})
       before += fmt::format("  same_names(\"{0}\", {1}::{0}_names, {2}{0}_names);\n", what, model_, prefix_);
-    return sampler() +
+    const std::vector<std::string> called = called_functions();
+    std::string pointers;
+    for (const std::string& name : called)
+      pointers += fmt::format("  c_m.functions.{0} = user_{1}_{0};\n", name, real_);
+    return sampler() + wrappers(called) +
            fmt::format(
                "static void check_{}() {{\n"
                "  const {}::Model<{}> m;\n  {}parameters c_p;\n  {}default_parameters(&c_p);\n"
-               "  {}model c_m;\n  {}set_model(&c_m, &c_p);\n",
-               real_, model_, real_, prefix_, prefix_, prefix_, prefix_) +
+               "  {}model c_m;\n{}  {}set_model(&c_m, &c_p);\n",
+               real_, model_, real_, prefix_, prefix_, prefix_, pointers, prefix_) +
            compare_unless_empty("parameters", fmt::format("const {}::Parameters<{}> p;", model_, real_), "p",
                                 "c_p") +
-           compare_unless_empty("model", "", "m", "c_m") + before +
+           (called.empty() ? compare_unless_empty("model", "", "m", "c_m") : "") + before +
            fmt::format("  {}::State<{}> s = initial_state(m);\n  {}state c_s = {}initial_state(&c_m);\n",
                        model_, real_, prefix_, prefix_) +
            "  SAME(\"initial_state\", s, c_s);\n" + inputs() +
@@ -120,6 +125,27 @@ class Driver {
   bool has_member(const std::string& name, const std::string& member) const {
     const std::size_t end = header_.find("} " + prefix_ + name + ";"), begin = header_.rfind("typedef", end);
     return header_.substr(begin, end - begin).find(" " + member) != std::string::npos;
+  }
+
+  /// Functions of the user that the model has pointers to.
+  std::vector<std::string> called_functions() const {
+    const std::size_t end = header_.find("} " + prefix_ + "functions;");
+    if (end == std::string::npos) return {};
+    std::vector<std::string> names;
+    for (std::size_t at = header_.rfind("typedef", end); (at = header_.find("(*", at)) < end; ++at)
+      names.push_back(header_.substr(at + 2, header_.find(')', at) - at - 2));
+    return names;
+  }
+
+  /// Pointers to what C++ calls, with its arguments.
+  std::string wrappers(const std::vector<std::string>& called) const {
+    std::string text;
+    for (const std::string& name : called)
+      text += fmt::format(
+          "template <class... Arguments>\nstatic {1} user_{1}_{0}(void*, Arguments... a) {{\n"
+          "  return {2}::Functions<{1}>{{}}.{0}(a...);\n}}\n",
+          name, real_, model_);
+    return text;
   }
 
   std::string compare_unless_empty(const std::string& name, const std::string& before, const char* a,
@@ -242,7 +268,11 @@ class Driver {
 }  // namespace
 
 std::string c_driver(const std::string& model, const std::string& header, const std::string& float_header) {
-  return fmt::format("#include \"{0}_kernels.hpp\"\n#include \"{0}.h\"\n#include \"{0}_f.h\"\n", model) +
+  const std::string written = fmt::format("{}/models/{}_functions.hpp", JOURDAIN_SOURCE_DIR, model);
+  const std::string functions =
+      std::filesystem::exists(written) ? fmt::format("#include \"{}\"\n", written) : "";
+  return fmt::format("{1}#include \"{0}_kernels.hpp\"\n#include \"{0}.h\"\n#include \"{0}_f.h\"\n", model,
+                     functions) +
          kBegin + Driver(model, header, model + "_", "double").text() +
          Driver(model, float_header, model + "_f_", "float").text() +
          "int main() {\n  check_double();\n  check_float();\n"

@@ -37,7 +37,7 @@ support::ProcessResult compile(const std::string& compiler, const std::string& i
   std::vector<std::string> command = {compiler, "-O2"};
   for (const std::string& flag : strict_flags()) command.push_back(flag);
   command.insert(command.end(), more.begin(), more.end());
-  command.insert(command.end(), {input, "-o", object});
+  command.insert(command.end(), {input, "-I" JOURDAIN_SOURCE_DIR "/models", "-o", object});
   return support::run_process(command);
 }
 
@@ -62,7 +62,8 @@ TEST(EmittedCode, CompilesCleanAndNeedsNothingButElementaryFunctions) {
     for (const std::string& model : emitted_models()) {
       if (!draws(number++, 2)) continue;
       const std::string object = folder.path() + "/model.o";
-      const support::ProcessResult result = compile(compiler, source(model), object);
+      const support::ProcessResult result = compile(
+          compiler, source(model), object, {"-c", "-I" + fs::path(source(model)).parent_path().string()});
       ASSERT_EQ(result.status, 0) << compiler << " " << model << "\n" << result.output.substr(0, 2000);
       EXPECT_EQ(result.output, "");
       for (const auto& [type, name] : symbols(object)) {
@@ -80,6 +81,9 @@ TEST(EmittedCode, InFloatNeverTouchesDouble) {
   for (const std::string& model : emitted_models()) {
     support::write_file(
         unit, fmt::format("#include \"{0}_kernels.hpp\"\n"
+                          "#if __has_include(\"{0}_functions.hpp\")\n"
+                          "#include \"{0}_functions.hpp\"\n"
+                          "#endif\n"
                           "template struct {0}::Model<float>;\n"
                           "template void {0}::rk4_step(const {0}::Model<float>&, {0}::State<float>&, const "
                           "{0}::Input<float>&, float) noexcept;\n",

@@ -9,6 +9,14 @@
 #include "embed/emitted_models.hpp"
 #include "embed/generic_driver.hpp"
 
+/// What users' functions take is none of the model's operations.
+template <>
+struct glider::Functions<jourdain::tests::Counting> {
+  using Counting = jourdain::tests::Counting;
+  Counting lift(const Counting& incidence) const noexcept { return incidence; }
+  Counting drag(const Counting& incidence) const noexcept { return incidence; }
+};
+
 namespace jourdain::tests {
 namespace {
 

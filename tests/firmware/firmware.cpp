@@ -102,11 +102,12 @@ Command model_objects(const std::string& machine, const Command& cxx, const Comm
 
 /// The model's objects and that of disturbed sines.
 Command objects(const std::string& machine, const Command& cxx, const Command& c, const Motion& motion,
-                Sines sines) {
+                Sines sines, unsigned pattern = 0) {
   Command linked = model_objects(machine, cxx, c, motion, sines == Sines::kOwn);
   if (sines != Sines::kWobbling) return linked;
-  linked.push_back(fmt::format("{}/{}_wobble.o", firmware_folder(), machine));
-  make(linked.back(), joined({c, kStrict, kCalled, {"-c", kPrograms + "wobble.c"}}));
+  linked.push_back(fmt::format("{}/{}_wobble_{}.o", firmware_folder(), machine, pattern));
+  make(linked.back(),
+       joined({c, kStrict, kCalled, {fmt::format("-DPATTERN={}u", pattern), "-c", kPrograms + "wobble.c"}}));
   return linked;
 }
 
@@ -181,17 +182,18 @@ const std::string& firmware_folder() {
   return folder.path();
 }
 
-std::vector<Line> host_motion(const Motion& motion, Sines sines) {
+std::vector<Line> host_motion(const Motion& motion, Sines sines, unsigned pattern) {
   const Command options = {"-O2", "-ffp-contract=off", "-fno-math-errno"};
   const Command c = joined({{"gcc", "-std=c99"}, options});
   Command link =
-      joined({{"gcc"}, objects("host", joined({{"g++", "-std=c++17"}, options}), c, motion, sines)});
+      joined({{"gcc"}, objects("host", joined({{"g++", "-std=c++17"}, options}), c, motion, sines, pattern)});
   if (sines == Sines::kWobbling)
     for (const char* name : {"sin", "cos", "atan2", "sinf", "cosf", "atan2f"})
       link.push_back(fmt::format("-Wl,--wrap={}", name));
   const std::string board = firmware_folder() + "/host_board.o";
   make(board, joined({c, kStrict, {"-c", kPrograms + "host_board.c"}}));
-  const std::string program = file_of("host", motion, fmt::format("_{}", static_cast<int>(sines)));
+  const std::string program =
+      file_of("host", motion, fmt::format("_{}_{}", static_cast<int>(sines), pattern));
   make(program, joined({link, {board, "-lm"}}));
   return read_lines(commands::run_tool({program}));
 }

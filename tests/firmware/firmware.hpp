@@ -43,8 +43,9 @@ struct Line {
   std::vector<double> values;
 };
 
-/// As the host computes it, with all warnings as errors. Throws EnvironmentError where that fails.
-std::vector<Line> host_motion(const Motion& motion, Sines sines);
+/// As the host computes it, with all warnings as errors; sines that wobble do so in one of many patterns. Throws
+/// EnvironmentError where that fails.
+std::vector<Line> host_motion(const Motion& motion, Sines sines, unsigned pattern = 0);
 
 /// The same of a target.
 std::vector<Line> target_motion(const commands::Target& target, const Motion& motion, Sines sines);

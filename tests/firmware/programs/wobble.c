@@ -3,10 +3,10 @@
 #include <math.h>
 #include <string.h>
 
-/* As good as random, the same for the same argument. */
+/* As good as random, the same for the same argument and PATTERN. */
 static int goes_up(const void *number, size_t size) {
   unsigned char bytes[8] = {0};
-  unsigned hash = 0, i;
+  unsigned hash = PATTERN, i;
   memcpy(bytes, number, size);
   for (i = 0; i < 8; ++i) hash = (hash ^ bytes[i]) * 16777619u;
   return (int)(hash >> 16 & 1u);
