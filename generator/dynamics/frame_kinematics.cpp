@@ -199,7 +199,7 @@ FrameKinematics::Six FrameKinematics::acceleration(const std::vector<Ex>& zdot) 
   const Vector3& x = path_.levers.front();
   const Vector3 a = bind("a", at.linear + cross(at.angular, x) + cross(w, bind("wx", cross(w, x))));
   if (axes_ == Axes::kFrame) return {to_frame(a, "A"), to_frame(at.angular, "al")};
-  const Six six{to_world(a, "A"), to_world(at.angular, "al")};
+  Six six{to_world(a, "A"), to_world(at.angular, "al")};
   if (axes_ == Axes::kWorldAligned) return six;
   // The spatial velocity's rate: d/dt (v + p × ω) less what p × ω̇ is already.
   const Six v = world_velocity();

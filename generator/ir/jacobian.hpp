@@ -9,8 +9,8 @@
 
 namespace jourdain::ir {
 
-/// The dependence of a leaf, or of a value that is held, on one column of a Jacobian: ∂leaf/∂column. Without seeds it is
-/// constant.
+/// The dependence of a leaf, or of a value that is held, on one column of a Jacobian: ∂leaf/∂column. Without seeds it
+/// is constant.
 struct Seed {
   Signed leaf;
   std::size_t column = 0;
@@ -30,8 +30,8 @@ struct EliminationOrder {
 
 /// ∂values/∂columns. Every value of the builder's program between leaf and result is a vertex whose edges carry local
 /// partial derivatives; removing a vertex joins its operands to its users by the chain rule, until only columns and
-/// rows are left (Griewank, Walther: Evaluating Derivatives, chapter 9). New operations go into `builder`. Values that are
-/// `held` are leaves here: they change as their seeds say, not as what they are computed from.
+/// rows are left (Griewank, Walther: Evaluating Derivatives, chapter 9). New operations go into `builder`. Values that
+/// are `held` are leaves here: they change as their seeds say, not as what they are computed from.
 JacobianEntries differentiate(Builder& builder, const std::vector<Signed>& values,
                               const std::vector<Seed>& seeds, EliminationOrder order,
                               const std::vector<Signed>& held = {});

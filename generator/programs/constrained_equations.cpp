@@ -12,7 +12,6 @@ using ir::Builder;
 using ir::Column;
 using ir::FunctionId;
 using ir::LeafKind;
-using ir::Program;
 using ir::Signed;
 
 namespace {

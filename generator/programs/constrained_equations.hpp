@@ -9,7 +9,8 @@
 
 namespace jourdain::programs {
 
-/// Values of one program; all velocities of the tree are independent, and some of the constraints' rows have multipliers.
+/// Values of one program; all velocities of the tree are independent, and some of the constraints' rows have
+/// multipliers.
 class ConstrainedEquations {
  public:
   ConstrainedEquations(ir::Builder& builder, const loops::LoopSystem& system, std::vector<std::size_t> rows);

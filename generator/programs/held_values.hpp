@@ -1,10 +1,11 @@
-// Values that change as what determines them does, not by the steps that they are computed in: points that are looked for,
-// multipliers.
+// Values that change as what determines them does, not by the steps that they are computed in: points that are looked
+// for, multipliers.
 #pragma once
 
 #include <vector>
 
 #include "ir/jacobian.hpp"
+#include "ir/symmetric_factors.hpp"
 #include "loops/rows/search_programs.hpp"
 
 namespace jourdain::programs {
@@ -14,7 +15,8 @@ struct HeldValues {
   ir::Column values;
   std::vector<ir::Seed> seeds;
 
-  /// `changes` by number of a candidate and column. Each value is held once, and leaves are not: they have their own seeds.
+  /// `changes` by number of a candidate and column. Each value is held once, and leaves are not: they have their own
+  /// seeds.
   void add(const ir::Builder& builder, const ir::Column& candidates, const ir::JacobianEntries& changes);
 
   /// ∂values/∂columns, with seeds of leaves.

@@ -24,11 +24,17 @@ constexpr long double kResidue = 1e-60L;
 /// way to one is less stable than the oracle's: multipliers of rows that are all but redundant.
 constexpr long double kLessStable = 1e4L;
 
-/// |a − b| over the larger scale; 0 where both are no numbers, infinite where one is or nothing bounds the rounding.
+/// Less than what doubles have all their digits for: constants of that size are rounded to few.
+bool is_below_doubles(const ScaledReal& number) {
+  return static_cast<long double>(abs(number)) < std::numeric_limits<double>::min();
+}
+
+/// |a − b| over the larger scale; 0 where both are no numbers or below doubles, infinite where one is none or nothing
+/// bounds the rounding.
 /// Over the larger number, which is less, where these leave the range of double.
 double apart(const ScaledReal& a, const ScaledReal& b, long double floor) {
   if (a.is_number() != b.is_number()) return INFINITY;
-  if (!a.is_number() || a == b) return 0;
+  if (!a.is_number() || a == b || (is_below_doubles(a) && is_below_doubles(b))) return 0;
   const long double scale = std::max({a.scale(), b.scale(), floor});
   const auto difference = static_cast<long double>(abs(a - b));
   if (std::isinf(difference)) return static_cast<double>(abs(a - b) / (abs(a) > abs(b) ? abs(a) : abs(b)));

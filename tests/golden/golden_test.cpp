@@ -1,5 +1,5 @@
-// generated/ is what the compiler emits today, on every run, whichever C++ compiler it was built by: with sanitizers that is another
-// one, whose output for the other suites is compared.
+// generated/ is what the compiler emits today, on every run, whichever C++ compiler it was built by: with sanitizers
+// that is another one, whose output for the other suites is compared.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Derivatives of equations with multipliers: by the equations that multipliers solve, and points that are looked for held.
+// Derivatives of equations with multipliers: by the equations that these solve, and points that are looked for held.
 #include <gtest/gtest.h>
 
 #include <cmath>

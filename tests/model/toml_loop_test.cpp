@@ -178,7 +178,7 @@ TEST(ReadLoops, EveryModelIsReadWithoutAMessage) {
       SCOPED_TRACE(entry.path().filename().string());
       const std::string path = entry.path().string();
       support::Diagnostics diagnostics(path, support::read_file(path));
-      const std::optional<Mechanism> mechanism = read_mechanism(diagnostics);
+      const std::optional<Mechanism> mechanism = read_mechanism(diagnostics, {.external = true});
       EXPECT_EQ(diagnostics.format(), "");
       EXPECT_TRUE(mechanism && !mechanism->bodies.empty());
     }

@@ -35,8 +35,8 @@ inline Scalar applied(support::Function function, Scalar a, Scalar b) {
 /// The angle of (x, y), in (−π, π].
 inline Scalar angle_of(Scalar x, Scalar y) { return {x.builder, x.builder->atan2(y.value, x.value)}; }
 
-/// Operands of an operator and arguments of a call are built in an order of the compiler's choice, terms in braces one after
-/// the other: where two of them are formulas themselves, they stand in braces.
+/// Operands of an operator and arguments of a call are built in an order of the compiler's choice, terms in braces one
+/// after the other: where two of them are formulas themselves, they stand in braces.
 template <class Term>
 Term sum(std::initializer_list<Term> terms) {
   return std::accumulate(terms.begin() + 1, terms.end(), *terms.begin());

@@ -12,8 +12,8 @@ namespace jourdain::validate {
 
 using support::ScaledReal;
 
-/// The constraints of a mechanism, from their symbolic statements. It refers to what it is made from. Points that are looked
-/// for are those of a state's LeafKind::kHeld where it has them.
+/// The constraints of a mechanism, from their symbolic statements. It refers to what it is made from. Points that are
+/// looked for are those of a state's LeafKind::kHeld where it has them.
 class ExactClosure {
  public:
   ExactClosure(const model::Mechanism& mechanism, const dynamics::Equations& closures,

@@ -52,8 +52,8 @@ class LoopOracle {
   };
   Schur schur(const std::vector<std::size_t>& rows) const;
 
-  /// A state beside which the multipliers of the rows that are solved for change as S λ = c does to first order: by what is
-  /// missing in it, with the regularised inverse of S there.
+  /// A state beside which the multipliers of the rows that are solved for change as S λ = c does to first order: by
+  /// what is missing in it, with the regularised inverse of S there.
   struct Beside {
     Schur schur;
     ExactVector lambda;
