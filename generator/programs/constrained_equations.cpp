@@ -45,7 +45,7 @@ ConstrainedEquations::ConstrainedEquations(Builder& builder, const loops::LoopSy
 ConstrainedEquations::Motion ConstrainedEquations::motion() const {
   const Column at_rest(system_.layout.velocity_count(), builder_.literal(0));
   const Column r = residual(at_rest, Column(rows_.size(), builder_.literal(0)));
-  return solved(r, opening(at_rest));
+  return solved(r, acceleration_rows(at_rest));
 }
 
 ConstrainedEquations::Motion ConstrainedEquations::solved(Column r, const Column& c) const {
@@ -67,7 +67,7 @@ Column ConstrainedEquations::residual(const Column& zdot, const Column& lambda) 
   return r;
 }
 
-Column ConstrainedEquations::opening(const Column& zdot) const {
+Column ConstrainedEquations::acceleration_rows(const Column& zdot) const {
   const double s = system_.plan.stabilisation;
   Column c;
   for (const std::size_t r : rows_) {
@@ -107,7 +107,7 @@ ConstrainedMotion constrained_motion(const loops::LoopSystem& system) {
   result.equations = program(
       "equations", [](const auto& equations, const Column& zdot, const Column& lambda, const auto& output) {
         output("r", equations.residual(zdot, lambda));
-        output("c", equations.opening(zdot));
+        output("c", equations.acceleration_rows(zdot));
       });
   result.change =
       program("change", [&](const auto& equations, const Column& r, const Column& c, const auto& output) {

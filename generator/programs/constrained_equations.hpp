@@ -25,7 +25,7 @@ class ConstrainedEquations {
   /// M ż − k̄ + q̄ + Gᵀ λ
   ir::Column residual(const ir::Column& zdot, const ir::Column& lambda) const;
   /// G ż + γ + 2 s ġ + s² g
-  ir::Column opening(const ir::Column& zdot) const;
+  ir::Column acceleration_rows(const ir::Column& zdot) const;
 
  private:
   ir::Builder& builder_;

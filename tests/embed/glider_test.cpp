@@ -34,7 +34,7 @@ void fly(const glider::Model<>& model, double& rest, double& missed) {
   rest = 0;
   for (const double entry : zdot) rest = std::max(rest, std::fabs(entry));
   state = initial_state(model);
-  for (int i = 0; i < 60000; ++i) rk4_step(model, state, {}, 0.01);
+  for (int i = 0; i < 150000; ++i) rk4_step(model, state, {}, 0.01);
   missed = std::max(std::fabs(std::hypot(state.z[0], state.z[1]) - glide.speed),
                     std::fabs(std::atan2(-state.z[1], state.z[0]) - glide.down));
 }
@@ -44,14 +44,15 @@ TEST(Glider, GlidesSteadilyAsItsFunctionsSay) {
   double rest = 0, missed = 0;
   fly(model, rest, missed);
   EXPECT_LT(rest, 1e-13);
-  EXPECT_LT(missed, 1e-9);
+  EXPECT_LT(missed, 1e-12);
+  std::printf("glider: accelerations %.1e in a steady glide, %.1e from it after 1500 s\n", rest, missed);
   const Glide before = steady_glide(model);
   model.functions.parasitic = 0.05;  // brakes
   fly(model, rest, missed);
   EXPECT_LT(rest, 1e-13);
-  EXPECT_LT(missed, 1e-9);
+  EXPECT_LT(missed, 1e-12);
   EXPECT_GT(steady_glide(model).down, 1.5 * before.down);
-  std::printf("glider: accelerations %.1e in a steady glide, %.1e from it after 600 s\n", rest, missed);
+  std::printf("with brakes: accelerations %.1e in a steady glide, %.1e from it after 1500 s\n", rest, missed);
 }
 
 }  // namespace

@@ -57,6 +57,13 @@ TEST(Agreement, NumbersThatDoNotExistAgreeWithEachOtherAlone) {
   EXPECT_FALSE(agree(none, 1));
 }
 
+/// Constants of that size have few digits in double; what is one there and not here is no such number.
+TEST(Agreement, NumbersBelowDoublesAgree) {
+  EXPECT_TRUE(agree(ScaledReal(3.60668e-321), ScaledReal(3.60174e-321)));
+  EXPECT_FALSE(agree(ScaledReal(3.60668e-321), ScaledReal(3.60174e-300)));
+  EXPECT_FALSE(agree(ScaledReal(3.60668e-300), ScaledReal(3.60174e-300)));
+}
+
 TEST(Agreement, RoundingIsRefusedBeyondTheDepthOfTheProgram) {
   const auto refused = [](double value, std::size_t depth) {
     Agreement agreement;
