@@ -333,10 +333,10 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[9
   const Real q003 = q0d3 * state.y[3];
   const Real q0r0_x = q033 + (q022 - Real(1.0));
   const Real q0r0_y = q012 - q003;
-  const Real q0r0_z = q013 + q002;
   const Real q0r1_x = q012 + q003;
   const Real q0r1_y = t14 + q033;
   const Real q0r1_z = q023 - q001;
+  const Real q0r0_z = q013 + q002;
   const Real S2b_t = s2 * model.S2b_d;
   const Real S2b_xx = s2 * S2b_t - Real(0.003500000000000002);
   const Real S2b_xy = c2 * S2b_t;
@@ -461,10 +461,10 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[9]) noe
   const Real q003 = q0d3 * state.y[3];
   const Real q0r0_x = q033 + (q022 - Real(1.0));
   const Real q0r0_y = q012 - q003;
-  const Real q0r0_z = q013 + q002;
   const Real q0r1_x = q012 + q003;
   const Real q0r1_y = t14 + q033;
   const Real q0r1_z = q023 - q001;
+  const Real q0r0_z = q013 + q002;
   const Real S2b_t = s2 * model.S2b_d;
   const Real S2b_xx = s2 * S2b_t - Real(0.003500000000000002);
   const Real S2b_xy = c2 * S2b_t;
@@ -628,8 +628,8 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real front_contactbx2p_z = front_contactbx3_y * Real(0.3090169943749474) + model.c26;
   const Real front_contactbd2p_x = s2 * Real(0.9510565162951535);
   const Real front_contactbd2p_z = s2 * Real(0.3090169943749474);
-  const Real front_contactbd0p_z = q0r2_y * c2 - (q0r2_x * front_contactbd2p_x + q0r2_z *
-      front_contactbd2p_z);
+  const Real front_contactbd0p_z = q0r2_z * front_contactbd2p_z + (q0r2_x * front_contactbd2p_x - q0r2_y *
+      c2);
   const Real t44 = Real(1.0) - front_contactbd0p_z * front_contactbd0p_z;
   const Real front_contactup = detail::square_root(t44);
   const Real t47 = state.y[3] * Real(0.5);
@@ -644,72 +644,68 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t56 = Real(0.5) * t55;
   const Real t58 = t56 * model.front_radius;
   const Real t59 = t54 * t58;
-  const Real t64 = front_contactbx2p_z + front_contactbd2p_z * t59;
-  const Real t65 = front_contactbx3_x - c2 * t59;
-  const Real t66 = front_contactbx2p_x + front_contactbd2p_x * t59;
+  const Real t64 = front_contactbx2p_z - front_contactbd2p_z * t59;
+  const Real t65 = front_contactbx3_x + c2 * t59;
+  const Real t66 = front_contactbx2p_x - front_contactbd2p_x * t59;
   const Real t69 = q0r2_z * Real(0.3090169943749474) + q0r2_x * Real(0.9510565162951535);
-  const Real t71 = q0r2_y * t59 - model.r_front_y * t69;
-  const Real t74 = q0r2_y * model.r_front_y + t59 * t69;
-  const Real t77 = c2 * t74 + s2 * t71;
+  const Real t71 = q0r2_y * t59 + model.r_front_y * t69;
+  const Real t74 = q0r2_y * model.r_front_y - t59 * t69;
+  const Real t77 = c2 * t74 - s2 * t71;
   const Real t82 = t51 * t53;
   const Real t84 = t82 * model.rear_radius;
   const Real t86 = q0d1 * t84;
   const Real t89 = q0d2 * t66 - q0d1 * t65;
   const Real t109 = q0d2 * t84;
   const Real t110 = Real(2.0) * (state.y[4] * t66 + state.y[5] * t65);
-  const Real t119 = q0d2 * model.rear_radius - (q0d3 * t84 - state.y[5] * model.mr_z);
-  const Real t122 = q0d2 * t64 + (q0d3 * t65 - Real(2.0) * (state.y[3] * t66 - state.y[5] * t64));
+  const Real t119 = state.y[5] * model.mr_z - (q0d3 * t84 - q0d2 * model.rear_radius);
+  const Real t122 = Real(2.0) * (state.y[3] * t66 - state.y[5] * t64) - (q0d3 * t65 + q0d2 * t64);
   const Real t129 = q0d1 * model.rear_radius - Real(2.0) * (state.y[3] * t84 - state.y[4] *
       model.rear_radius);
-  const Real t132 = q0d1 * t64 + (q0d3 * t66 + Real(2.0) * (state.y[3] * t65 + state.y[4] * t64));
-  const Real t138 = t47 * t109 - (t50 * t86 - (t48 * t119 - t49 * t129));
+  const Real t132 = Real(2.0) * (state.y[3] * t65 + state.y[4] * t64) + (q0d3 * t66 + q0d1 * t64);
+  const Real t138 = t49 * t129 - (t48 * t119 - (t50 * t86 - t47 * t109));
   const Real q033 = state.y[6] * q0d3;
   const Real q012 = state.y[4] * q0d2;
   const Real q003 = q0d3 * state.y[3];
-  const Real q0r0_x = q033 + (q022 - Real(1.0));
+  const Real q0r0_x = Real(1.0) - (q022 + q033);
   const Real q0r0_y = q012 - q003;
-  const Real q0r0_z = q013 + q002;
   const Real q0r1_x = q012 + q003;
   const Real q0r1_y = t14 + q033;
   const Real q0r1_z = q023 - q001;
-  const Real t151 = model.rear_radius * q0r1_y;
-  const Real rear_contactc_y = t82 * t151;
+  const Real t150 = model.rear_radius * q0r1_y;
+  const Real rear_contactc_y = t82 * t150;
   const Real rear_contactc_z = model.rear_radius * (t17 / rear_contactup);
-  const Real rear_contacts1bn0_y = t52 * t151;
+  const Real rear_contacts1bn0_y = t52 * t150;
   const Real rear_contacts1bn0_z = q0r1_z * rear_contactc_z + q0r2_z * rear_contactc_y;
-  const Real t161 = model.rear_radius * q0r0_y;
-  const Real rear_contacts1bf_x = q0r0_y * q0r0_y + (q0r0_x * q0r0_x + q0r0_z * q0r0_z);
-  const Real rear_contacts1bf_y = q0r0_y * q0r1_y + (q0r0_x * q0r1_x - q0r0_z * q0r1_z);
-  const Real rear_contacts1bf_z = q0r2_y * q0r0_y - (q0r2_x * q0r0_x + q0r2_z * q0r0_z);
-  const Real rear_contactc_x = t82 * t161;
-  const Real rear_contacts2bn0_y = t52 * t161;
-  const Real rear_contacts2bn0_z = q0r0_z * rear_contactc_z - q0r2_z * rear_contactc_x;
-  const Real rear_contacts2bf_y = q0r1_y * q0r1_y + (q0r1_x * q0r1_x + q0r1_z * q0r1_z);
-  const Real rear_contacts2bf_z = q0r2_y * q0r1_y - (q0r2_x * q0r1_x - q0r2_z * q0r1_z);
-  const Real front_contactbd0p_y = c2 * q0r1_y + (front_contactbd2p_x * q0r1_x - front_contactbd2p_z *
-      q0r1_z);
+  const Real t160 = model.rear_radius * q0r0_y;
+  const Real q0r0_z = q013 + q002;
+  const Real rear_contactc_x = t82 * t160;
+  const Real rear_contacts2bn0_y = t52 * t160;
+  const Real rear_contacts2bn0_z = rear_contactc_z * q0r0_z - q0r2_z * rear_contactc_x;
+  const Real front_contactbd0p_y = front_contactbd2p_z * q0r1_z - (front_contactbd2p_x * q0r1_x + c2 *
+      q0r1_y);
   const Real front_contactc_y = t59 * front_contactbd0p_y;
   const Real front_contactc_z = model.front_radius * (t44 / front_contactup);
-  const Real front_contacts1bf2_y = Real(0.3090169943749474) * q0r0_z + Real(0.9510565162951535) * q0r0_x;
+  const Real front_contacts1bf2_y = Real(0.3090169943749474) * q0r0_z - Real(0.9510565162951535) * q0r0_x;
   const Real front_contacts1bn0_x = q0r1_x * front_contactc_z - q0r2_x * front_contactc_y;
   const Real front_contacts1bn0_y = q0r1_y * front_contactc_z + q0r2_y * front_contactc_y;
   const Real front_contacts1bn0_z = q0r1_z * front_contactc_z + q0r2_z * front_contactc_y;
   const Real front_contacts1bn2_y = Real(0.3090169943749474) * front_contacts1bn0_z - Real(0.9510565162951535)
       * front_contacts1bn0_x;
   const Real front_contacts1bn3p_x = c2 * front_contacts1bn0_y - s2 * front_contacts1bn2_y;
-  const Real front_contacts1bm_z = Real(0.9510565162951535) * front_contacts1bn0_z + (Real(0.3090169943749474)
-      * front_contacts1bn0_x + (front_contactbx3_y * q0r0_y + front_contactbx3_x * front_contacts1bf2_y));
-  const Real front_contactbd0p_x = c2 * q0r0_y + s2 * front_contacts1bf2_y;
+  const Real front_contacts1bm_z = front_contactbx3_x * front_contacts1bf2_y + (front_contactbx3_y * q0r0_y +
+      (Real(0.3090169943749474) * front_contacts1bn0_x + Real(0.9510565162951535) * front_contacts1bn0_z));
+  const Real front_contactbd0p_x = front_contactbd2p_z * q0r0_z - (front_contactbd2p_x * q0r0_x - c2 *
+      q0r0_y);
   const Real front_contactc_x = t59 * front_contactbd0p_x;
   const Real front_contacts2bf2_y = Real(0.3090169943749474) * q0r1_z - Real(0.9510565162951535) * q0r1_x;
   const Real front_contacts2bn0_x = q0r0_x * front_contactc_z - q0r2_x * front_contactc_x;
-  const Real front_contacts2bn0_y = q0r0_y * front_contactc_z + q0r2_y * front_contactc_x;
-  const Real front_contacts2bn0_z = q0r0_z * front_contactc_z - q0r2_z * front_contactc_x;
-  const Real front_contacts2bn2_y = Real(0.3090169943749474) * front_contacts2bn0_z + Real(0.9510565162951535)
+  const Real front_contacts2bn0_y = q0r0_y * front_contactc_z - q0r2_y * front_contactc_x;
+  const Real front_contacts2bn0_z = q0r0_z * front_contactc_z + q0r2_z * front_contactc_x;
+  const Real front_contacts2bn2_y = Real(0.3090169943749474) * front_contacts2bn0_z - Real(0.9510565162951535)
       * front_contacts2bn0_x;
   const Real front_contacts2bn3p_x = c2 * front_contacts2bn0_y + s2 * front_contacts2bn2_y;
-  const Real front_contacts2bm_z = Real(0.9510565162951535) * front_contacts2bn0_z - (Real(0.3090169943749474)
-      * front_contacts2bn0_x - model.r_front_y * front_contactbd0p_y);
+  const Real front_contacts2bm_z = front_contactbx3_x * front_contacts2bf2_y - (front_contactbx3_y * q0r1_y +
+      (Real(0.3090169943749474) * front_contacts2bn0_x + Real(0.9510565162951535) * front_contacts2bn0_z));
   const Real S2b_t = s2 * model.S2b_d;
   const Real S2b_xx = s2 * S2b_t - Real(0.003500000000000002);
   const Real S2b_xy = c2 * S2b_t;
@@ -720,30 +716,31 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real h2b_y = c2 * model.front_h_y;
   const Real h2at2_x = Real(0.9510565162951535) * h2b_y;
   const Real h2at2_z = Real(0.3090169943749474) * h2b_y;
-  const Real t295 = Real(0.3090169943749474) * S2b_yz;
-  const Real S2at2r0_y = t295 + Real(0.9510565162951535) * S2b_yy;
-  const Real t298 = Real(0.9510565162951535) * S2b_yz;
-  const Real S2at2r0_z = t298 + Real(0.04326237921249264);
-  const Real S2at2r2_y = t298 - Real(0.3090169943749474) * S2b_yy;
+  const Real t271 = Real(0.3090169943749474) * S2b_yz;
+  const Real S2at2r0_y = t271 + Real(0.9510565162951535) * S2b_yy;
+  const Real t274 = Real(0.9510565162951535) * S2b_yz;
+  const Real S2at2r0_z = t274 + Real(0.04326237921249264);
+  const Real S2at2r2_y = t274 - Real(0.3090169943749474) * S2b_yy;
   const Real h2c_x = h2at2_x + model.c6;
   const Real h2c_z = h2at2_z + model.c7;
-  const Real t313 = h2b_x * model.r_steer_x;
-  const Real S2c_xy = Real(0.9510565162951535) * S2b_xy - (Real(0.3090169943749474) * S2b_xz + t313);
-  const Real t324 = h2at2_z - model.h_z;
-  const Real S2c_xz = model.r_steer_x * t324 - (Real(0.9510565162951535) * S2at2r0_z - ((h2at2_x + model.c9) *
-      model.r_steer_z + Real(0.3090169943749474) * (S2at2r0_y - model.SR_z))) + Real(25.349999999999998);
+  const Real t289 = h2b_x * model.r_steer_x;
+  const Real S2c_xy = t289 + (Real(0.3090169943749474) * S2b_xz - Real(0.9510565162951535) * S2b_xy);
+  const Real t300 = h2at2_z - model.h_z;
+  const Real S2c_xz = Real(0.3090169943749474) * (S2at2r0_y - model.SR_z) + ((h2at2_x + model.c9) *
+      model.r_steer_z - (Real(0.9510565162951535) * S2at2r0_z - model.r_steer_x * t300)) +
+      Real(25.349999999999998);
   const Real S2c_yy = S2b_xx - Real(0.5002999999999995);
-  const Real t333 = h2b_x * model.r_steer_z;
-  const Real S2c_yz = Real(0.9510565162951535) * S2b_xz + (Real(0.3090169943749474) * S2b_xy - t333);
-  const Real S1c_xx = Real(0.3090169943749474) * (S2at2r0_z + model.SR_x) + (Real(0.9510565162951535) *
-      S2at2r0_y + (h2at2_x + model.h_x) * model.c14) + model.c16;
-  const Real S1c_zz = Real(0.9510565162951535) * (t295 - model.c18) + (Real(0.3090169943749474) * S2at2r2_y -
-      t324 * model.c17) - model.c19;
+  const Real t309 = h2b_x * model.r_steer_z;
+  const Real S2c_yz = t309 - (Real(0.3090169943749474) * S2b_xy + Real(0.9510565162951535) * S2b_xz);
+  const Real S1c_xx = (h2at2_x + model.h_x) * model.c14 + (Real(0.9510565162951535) * S2at2r0_y +
+      Real(0.3090169943749474) * (S2at2r0_z + model.SR_x)) + model.c16;
+  const Real S1c_zz = t300 * model.c17 - (Real(0.3090169943749474) * S2at2r2_y + Real(0.9510565162951535) *
+      (t271 - model.c18)) + model.c19;
   const Real p_7_2l_x = h2b_y * model.r_steer_z;
   const Real p_7_2l_z = h2b_y * model.r_steer_x;
-  const Real p_7_2n_x = t298 - p_7_2l_x + model.c20;
-  const Real p_7_2n_y = t313 * Real(0.3090169943749474) + (S2b_xz - t333 * Real(0.9510565162951535));
-  const Real p_7_2n_z = t295 + p_7_2l_z - model.c21;
+  const Real p_7_2n_x = t274 - p_7_2l_x + model.c20;
+  const Real p_7_2n_y = t309 * Real(0.9510565162951535) - (S2b_xz + t289 * Real(0.3090169943749474));
+  const Real p_7_2n_z = t271 + p_7_2l_z - model.c21;
   const Real p_7_0f_x = front_contactbd0p_x * model.front_h_y;
   const Real p_7_0f_y = front_contactbd0p_y * model.front_h_y;
   const Real p_7_0f_z = front_contactbd0p_z * model.front_h_y;
@@ -751,268 +748,268 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real p_8_3N_y = s2 * Real(0.28);
   const Real p_8_2n_x = Real(0.9510565162951535) * p_8_3N_y;
   const Real p_8_2n_z = Real(0.3090169943749474) * p_8_3N_y;
-  const Real t397 = p_8_2n_z * Real(3.571428571428571);
-  const Real t401 = p_8_3N_x * Real(3.571428571428571);
-  const Real t404 = p_8_2n_x * Real(3.571428571428571);
-  const Real t407 = p_7_2n_z * model.c30;
-  const Real t414 = p_8_3N_x * t397 + (S2c_yz + p_7_2n_y * t407);
-  const Real t417 = p_8_2n_x * t397 + (S2c_xz - p_7_2n_x * t407);
-  const Real t420 = q0r2_y * h2c_x - (q0r2_x * h2b_x - p_7_0f_z * t407);
-  const Real t423 = q0r1_y * h2c_x + (q0r1_x * h2b_x + p_7_0f_y * t407);
-  const Real t426 = q0r0_y * h2c_x + (q0r0_x * h2b_x + p_7_0f_x * t407);
-  const Real t427 = p_7_2n_y * model.c30;
-  const Real t433 = p_7_2n_x * model.c30;
-  const Real t438 = p_7_0f_z * model.c30;
-  const Real t442 = p_7_0f_y * model.c30;
-  const Real t445 = p_7_0f_x * model.c30;
-  const Real t447 = Real(1.0) / (S1c_xx - (S2c_yy + (p_8_2n_z * t397 - p_7_2n_z * t407)));
-  const Real t448 = t414 * t447;
-  const Real t459 = p_8_2n_x * t401 + (S2c_xy + (p_7_2n_x * t427 + t417 * t448));
-  const Real t463 = q0r2_z * h2c_x - (q0r2_x * h2c_z + (p_7_0f_z * t427 - t420 * t448));
-  const Real t467 = q0r1_z * h2c_x + (q0r1_x * h2c_z - (p_7_0f_y * t427 - t423 * t448));
-  const Real t471 = q0r0_z * h2c_x - (q0r0_x * h2c_z - (p_7_0f_x * t427 - t426 * t448));
-  const Real t472 = t417 * t447;
-  const Real t477 = t420 * t447;
-  const Real t481 = t423 * t447;
-  const Real t484 = t426 * t447;
-  const Real t486 = Real(1.0) / (S1c_zz - (S1c_xx - (p_8_3N_x * t401 - (p_7_2n_y * t427 - t414 * t448))) +
+  const Real t373 = p_8_2n_z * Real(3.571428571428571);
+  const Real t377 = p_8_3N_x * Real(3.571428571428571);
+  const Real t380 = p_8_2n_x * Real(3.571428571428571);
+  const Real t383 = p_7_2n_z * model.c30;
+  const Real t390 = p_7_2n_y * t383 + (S2c_yz - p_8_3N_x * t373);
+  const Real t393 = p_7_2n_x * t383 - (S2c_xz + p_8_2n_x * t373);
+  const Real t396 = p_7_0f_z * t383 + (q0r2_x * h2b_x - q0r2_y * h2c_x);
+  const Real t399 = p_7_0f_y * t383 - (q0r1_x * h2b_x + q0r1_y * h2c_x);
+  const Real t402 = p_7_0f_x * t383 - (q0r0_x * h2b_x - q0r0_y * h2c_x);
+  const Real t403 = p_7_2n_y * model.c30;
+  const Real t409 = p_7_2n_x * model.c30;
+  const Real t414 = p_7_0f_z * model.c30;
+  const Real t418 = p_7_0f_y * model.c30;
+  const Real t421 = p_7_0f_x * model.c30;
+  const Real t423 = Real(1.0) / (p_7_2n_z * t383 - (p_8_2n_z * t373 + (S2c_yy - S1c_xx)));
+  const Real t424 = t390 * t423;
+  const Real t435 = t393 * t424 - (p_7_2n_x * t403 + (S2c_xy - p_8_2n_x * t377));
+  const Real t439 = t396 * t424 - (p_7_0f_z * t403 + (q0r2_x * h2c_z - q0r2_z * h2c_x));
+  const Real t443 = t399 * t424 - (p_7_0f_y * t403 - (q0r1_x * h2c_z + q0r1_z * h2c_x));
+  const Real t447 = t402 * t424 - (p_7_0f_x * t403 - (q0r0_x * h2c_z + q0r0_z * h2c_x));
+  const Real t448 = t393 * t423;
+  const Real t453 = t396 * t423;
+  const Real t457 = t399 * t423;
+  const Real t460 = t402 * t423;
+  const Real t462 = Real(1.0) / (t390 * t424 - (p_7_2n_y * t403 - (p_8_3N_x * t377 - (S1c_xx + S1c_zz))) +
       Real(0.12));
-  const Real t487 = t459 * t486;
-  const Real t498 = q0r2_z * h2b_x - (q0r2_y * h2c_z - (p_7_0f_z * t433 + (t420 * t472 - t463 * t487)));
-  const Real t503 = q0r1_z * h2b_x - (q0r1_y * h2c_z - (p_7_0f_y * t433 + (t423 * t472 - t467 * t487)));
-  const Real t508 = q0r0_z * h2b_x + (q0r0_y * h2c_z - (p_7_0f_x * t433 + (t426 * t472 + t471 * t487)));
-  const Real t509 = t463 * t486;
-  const Real t513 = t467 * t486;
-  const Real t516 = t471 * t486;
-  const Real t518 = Real(1.0) / (S1c_zz + (S2c_yy + (p_8_2n_x * t404 - (p_7_2n_x * t433 - (t417 * t472 - t459
-      * t487)))));
-  const Real t519 = t498 * t518;
-  const Real t529 = t423 * t477 - (p_7_0f_y * t438 + (t467 * t509 + t503 * t519));
-  const Real t533 = t426 * t477 - (p_7_0f_x * t438 - (t471 * t509 + t508 * t519));
-  const Real t534 = t503 * t518;
-  const Real t537 = t508 * t518;
-  const Real t539 = Real(1.0) / (t420 * t477 - (p_7_0f_z * t438 + (t463 * t509 + t498 * t519)) - Real(94.0));
-  const Real t540 = t529 * t539;
-  const Real t551 = t426 * t481 - (p_7_0f_x * t442 - (t471 * t513 + (t508 * t534 - t533 * t540)));
-  const Real t552 = t533 * t539;
-  const Real t554 = Real(1.0) / (Real(94.0) + (p_7_0f_y * t442 - (t423 * t481 - (t467 * t513 + (t503 * t534 +
-      t529 * t540)))));
-  const Real t555 = t551 * t554;
-  const Real t563 = Real(1.0) / (Real(94.0) + (p_7_0f_x * t445 - (t426 * t484 - (t471 * t516 + (t508 * t537 +
-      (t533 * t552 - t551 * t555))))));
-  const Real t566 = t50 * t129 - (t47 * t119 - t138 * t448);
-  const Real t576 = t49 * t109 + (t48 * t86 + (t50 * t119 + (t47 * t129 + (t138 * t472 - t487 * t566))));
-  const Real t583 = t138 * t477 + (Real(1.0) - (t509 * t566 + t519 * t576));
-  const Real t589 = t513 * t566 - (t138 * t481 - (t534 * t576 + t540 * t583));
-  const Real t595 = t516 * t566 + (t138 * t484 + (t537 * t576 - (t552 * t583 + t555 * t589)));
-  const Real t597 = model.rear_radius * q0r0_x + rear_contacts1bn0_z * t448;
-  const Real t606 = q0r2_x * rear_contactc_y - (q0r1_x * rear_contactc_z + (t161 - (rear_contacts1bn0_z * t472
-      - t487 * t597)));
-  const Real t613 = rear_contacts1bn0_z * t477 - (rear_contacts1bf_z + (t509 * t597 + t519 * t606));
-  const Real t620 = rear_contacts1bn0_z * t481 - (rear_contacts1bf_y + (t513 * t597 + (t534 * t606 + t540 *
-      t613)));
-  const Real t627 = rear_contacts1bn0_z * t484 - (rear_contacts1bf_x - (t516 * t597 + (t537 * t606 - (t552 *
-      t613 - t555 * t620))));
-  const Real t629 = model.rear_radius * q0r1_x + rear_contacts2bn0_z * t448;
-  const Real t638 = q0r0_x * rear_contactc_z - (t151 + (q0r2_x * rear_contactc_x - (rear_contacts2bn0_z * t472
-      - t487 * t629)));
-  const Real t645 = rear_contacts2bn0_z * t477 - (rear_contacts2bf_z + (t509 * t629 + t519 * t638));
-  const Real t652 = rear_contacts2bn0_z * t481 - (rear_contacts2bf_y + (t513 * t629 + (t534 * t638 + t540 *
-      t645)));
-  const Real t659 = rear_contacts2bn0_z * t484 - (rear_contacts1bf_y - (t516 * t629 + (t537 * t638 - (t552 *
-      t645 - t555 * t652))));
-  const Real t661 = t50 * t89 + t47 * t110;
-  const Real t663 = t661 + (t77 * t407 + t661);
-  const Real t674 = t48 * t110 + (t49 * t89 + (t47 * t122 - (t50 * t132 + (t77 * t427 - t448 * t663))));
-  const Real t685 = t49 * t110 - (t48 * t89 + (t50 * t122 + (t47 * t132 - (t77 * t433 + (t472 * t663 - t487 *
-      t674)))));
-  const Real t693 = t77 * t438 + (Real(1.0) - (t477 * t663 - (t509 * t674 + t519 * t685)));
-  const Real t700 = t481 * t663 - (t77 * t442 + (t513 * t674 + (t534 * t685 - t540 * t693)));
-  const Real t707 = t484 * t663 - (t77 * t445 - (t516 * t674 + (t537 * t685 + (t552 * t693 + t555 * t700))));
-  const Real t715 = front_contactbx3_x * q0r0_x + (front_contacts1bn0_z + (front_contactbx2p_x * q0r0_y +
-      (front_contacts1bn3p_x * t397 + front_contacts1bm_z * t407)));
-  const Real t726 = front_contactbx2p_z * q0r0_x - (front_contacts1bn0_y + (front_contactbx2p_x * q0r0_z -
-      (front_contacts1bn3p_x * t401 - (front_contacts1bm_z * t427 - t448 * t715))));
-  const Real t737 = front_contactbx2p_z * q0r0_y + (front_contacts1bn0_x + (front_contactbx3_x * q0r0_z -
-      (front_contacts1bn3p_x * t404 + (front_contacts1bm_z * t433 + (t472 * t715 - t487 * t726)))));
-  const Real t745 = front_contacts1bm_z * t438 + (rear_contacts1bf_z - (t477 * t715 - (t509 * t726 - t519 *
-      t737)));
-  const Real t753 = front_contacts1bm_z * t442 + (rear_contacts1bf_y - (t481 * t715 - (t513 * t726 - (t534 *
-      t737 + t540 * t745))));
-  const Real t761 = front_contacts1bm_z * t445 + (rear_contacts1bf_x - (t484 * t715 + (t516 * t726 - (t537 *
-      t737 - (t552 * t745 - t555 * t753)))));
-  const Real t769 = front_contactbx3_x * q0r1_x + (front_contacts2bn0_z + (front_contactbx2p_x * q0r1_y -
-      (front_contacts2bn3p_x * t397 - front_contacts2bm_z * t407)));
-  const Real t780 = front_contactbx2p_z * q0r1_x + (front_contacts2bn0_y + (front_contactbx2p_x * q0r1_z -
-      (front_contacts2bn3p_x * t401 + (front_contacts2bm_z * t427 - t448 * t769))));
-  const Real t791 = front_contactbx2p_z * q0r1_y - (front_contacts2bn0_x + (front_contactbx3_x * q0r1_z -
-      (front_contacts2bn3p_x * t404 - (front_contacts2bm_z * t433 + (t472 * t769 - t487 * t780)))));
-  const Real t799 = front_contacts2bm_z * t438 + (rear_contacts2bf_z - (t477 * t769 - (t509 * t780 - t519 *
-      t791)));
-  const Real t807 = front_contacts2bm_z * t442 + (rear_contacts2bf_y - (t481 * t769 - (t513 * t780 - (t534 *
-      t791 + t540 * t799))));
-  const Real t815 = front_contacts2bm_z * t445 + (rear_contacts1bf_y - (t484 * t769 + (t516 * t780 - (t537 *
-      t791 - (t552 * t799 - t555 * t807)))));
-  const Real t828 = t563 * t627;
-  const Real t829 = t554 * t620;
-  const Real t830 = t539 * t613;
-  const Real t831 = t518 * t606;
-  const Real t832 = t486 * t597;
-  const Real t833 = rear_contacts1bn0_z * t447;
-  const Real t844 = t589 * t829 - (t595 * t828 - (t583 * t830 + (t576 * t831 + (t566 * t832 - t138 * t833))));
-  const Real t854 = t563 * t659;
-  const Real t855 = t554 * t652;
-  const Real t856 = t539 * t645;
-  const Real t857 = t518 * t638;
-  const Real t858 = t486 * t629;
-  const Real t859 = rear_contacts2bn0_z * t447;
-  const Real t860 = rear_contacts2bn0_y * Real(8.333333333333334);
-  const Real t871 = t589 * t855 - (t595 * t854 - (t583 * t856 + (t576 * t857 + (t566 * t858 - t138 * t859))));
-  const Real t886 = t563 * t707;
-  const Real t887 = t554 * t700;
-  const Real t888 = t539 * t693;
-  const Real t889 = t518 * t685;
-  const Real t890 = t486 * t674;
-  const Real t891 = t447 * t663;
-  const Real t902 = t589 * t887 - (t595 * t886 + (t583 * t888 - (t576 * t889 + (t566 * t890 - t138 * t891))));
-  const Real t923 = t563 * t761;
-  const Real t924 = t554 * t753;
-  const Real t925 = t539 * t745;
-  const Real t926 = t518 * t737;
-  const Real t927 = t486 * t726;
-  const Real t928 = t447 * t715;
-  const Real t929 = front_contacts1bm_z * model.c30;
-  const Real t940 = t589 * t924 - (t595 * t923 - (t583 * t925 + (t576 * t926 - (t566 * t927 - t138 * t928))));
-  const Real t969 = t563 * t815;
-  const Real t970 = t554 * t807;
-  const Real t971 = t539 * t799;
-  const Real t972 = t518 * t791;
-  const Real t973 = t486 * t780;
-  const Real t974 = t447 * t769;
-  const Real t975 = front_contacts2bm_z * model.c30;
-  const Real t976 = front_contacts2bn3p_x * Real(3.571428571428571);
-  const Real t987 = t589 * t970 - (t595 * t969 - (t583 * t971 + (t576 * t972 - (t566 * t973 - t138 * t974))));
-  const Real t1030 = Real(1.0) / (t589 * (t554 * t589) + (t595 * (t563 * t595) - (t583 * (t539 * t583) + (t576
-      * (t518 * t576) + (t566 * (t486 * t566) - t138 * (t138 * t447))))) + Real(1.8087085566416913e-12));
-  const Real t1031 = t844 * t1030;
-  const Real t1042 = t871 * t1030;
-  const Real t1050 = t620 * t855 + (t627 * t854 - (t613 * t856 + (t606 * t857 + (t597 * t858 -
-      (rear_contacts1bn0_z * t859 - (rear_contacts1bn0_y * t860 + t844 * t1042))))));
-  const Real t1052 = t902 * t1030;
-  const Real t1059 = t620 * t887 + (t627 * t886 + (t613 * t888 - (t606 * t889 + (t597 * t890 -
-      (rear_contacts1bn0_z * t891 - t844 * t1052)))));
-  const Real t1062 = t940 * t1030;
-  const Real t1069 = t620 * t924 + (t627 * t923 - (t613 * t925 + (t606 * t926 - (t597 * t927 -
-      (rear_contacts1bn0_z * t928 + t844 * t1062)))));
-  const Real t1073 = t987 * t1030;
-  const Real t1080 = t620 * t970 + (t627 * t969 - (t613 * t971 + (t606 * t972 - (t597 * t973 -
-      (rear_contacts1bn0_z * t974 + t844 * t1073)))));
-  const Real t1085 = Real(1.0) / (t620 * t829 + (t627 * t828 - (t613 * t830 + (t606 * t831 + (t597 * t832 -
-      (rear_contacts1bn0_z * t833 + (rear_contacts1bn0_y * rear_contacts1bn0_y * Real(8.333333333333334) -
-      t844 * t1031)))))) + Real(7.806783314072456e-11));
-  const Real t1086 = t1050 * t1085;
-  const Real t1098 = t1059 * t1085;
-  const Real t1106 = t652 * t887 + (t659 * t886 + (t645 * t888 - (t638 * t889 + (t629 * t890 -
-      (rear_contacts2bn0_z * t891 - (t871 * t1052 + t1050 * t1098))))));
-  const Real t1108 = t1069 * t1085;
-  const Real t1116 = t652 * t924 + (t659 * t923 - (t645 * t925 + (t638 * t926 - (t629 * t927 -
-      (rear_contacts2bn0_z * t928 + (t871 * t1062 + t1050 * t1108))))));
-  const Real t1119 = t1080 * t1085;
-  const Real t1127 = t652 * t970 + (t659 * t969 - (t645 * t971 + (t638 * t972 - (t629 * t973 -
-      (rear_contacts2bn0_z * t974 + (t871 * t1073 + t1050 * t1119))))));
-  const Real t1131 = Real(1.0) / (t652 * t855 + (t659 * t854 - (t645 * t856 + (t638 * t857 + (t629 * t858 -
-      (rear_contacts2bn0_z * t859 + (rear_contacts2bn0_y * t860 - (t871 * t1042 + t1050 * t1086))))))) +
-      Real(8.816994788327498e-12));
-  const Real t1132 = t1106 * t1131;
-  const Real t1145 = t1116 * t1131;
-  const Real t1155 = t700 * t924 + (t707 * t923 + (t693 * t925 - (t685 * t926 - (t674 * t927 - (t663 * t928 -
-      (t77 * t929 - (t902 * t1062 + (t1059 * t1108 + t1106 * t1145))))))));
-  const Real t1157 = t1127 * t1131;
-  const Real t1167 = t700 * t970 + (t707 * t969 + (t693 * t971 - (t685 * t972 - (t674 * t973 - (t663 * t974 -
-      (t77 * t975 - (t902 * t1073 + (t1059 * t1119 + t1106 * t1157))))))));
-  const Real t1170 = Real(1.0) / (t700 * t887 + (t707 * t886 - (t693 * t888 + (t685 * t889 + (t674 * t890 -
-      (t663 * t891 - (model.c30 * (t77 * t77) + (t902 * t1052 + (t1059 * t1098 + t1106 * t1132)))))))) +
+  const Real t463 = t435 * t462;
+  const Real t474 = t439 * t463 - (t396 * t448 - (p_7_0f_z * t409 + (q0r2_y * h2c_z - q0r2_z * h2b_x)));
+  const Real t479 = t443 * t463 - (t399 * t448 - (p_7_0f_y * t409 + (q0r1_y * h2c_z - q0r1_z * h2b_x)));
+  const Real t484 = t447 * t463 - (t402 * t448 - (p_7_0f_x * t409 - (q0r0_y * h2c_z + q0r0_z * h2b_x)));
+  const Real t485 = t439 * t462;
+  const Real t489 = t443 * t462;
+  const Real t492 = t447 * t462;
+  const Real t494 = Real(1.0) / (t435 * t463 - (t393 * t448 - (p_7_2n_x * t409 - (p_8_2n_x * t380 + (S2c_yy -
+      S1c_zz)))));
+  const Real t495 = t474 * t494;
+  const Real t505 = t479 * t495 - (t443 * t485 + (p_7_0f_y * t414 - t399 * t453));
+  const Real t509 = t484 * t495 - (t447 * t485 + (p_7_0f_x * t414 - t402 * t453));
+  const Real t510 = t479 * t494;
+  const Real t513 = t484 * t494;
+  const Real t515 = Real(1.0) / (t474 * t495 - (t439 * t485 + (p_7_0f_z * t414 - t396 * t453)) - Real(94.0));
+  const Real t516 = t505 * t515;
+  const Real t527 = t509 * t516 - (t484 * t510 - (t447 * t489 + (p_7_0f_x * t418 - t402 * t457)));
+  const Real t528 = t509 * t515;
+  const Real t530 = Real(1.0) / (t505 * t516 - (t479 * t510 - (t443 * t489 - (t399 * t457 - (p_7_0f_y * t418 +
+      Real(94.0))))));
+  const Real t531 = t527 * t530;
+  const Real t539 = Real(1.0) / (t527 * t531 - (t509 * t528 - (t484 * t513 - (t447 * t492 - (t402 * t460 -
+      (p_7_0f_x * t421 + Real(94.0)))))));
+  const Real t542 = t138 * t424 - (t47 * t119 - t50 * t129);
+  const Real t552 = t463 * t542 - (t138 * t448 + (t47 * t129 + (t50 * t119 + (t48 * t86 + t49 * t109))));
+  const Real t559 = t495 * t552 - (t485 * t542 - (Real(1.0) + t138 * t453));
+  const Real t565 = t516 * t559 - (t510 * t552 + (t138 * t457 - t489 * t542));
+  const Real t571 = t531 * t565 - (t528 * t559 - (t513 * t552 + (t138 * t460 - t492 * t542)));
+  const Real t573 = model.rear_radius * q0r0_x + rear_contacts1bn0_z * t424;
+  const Real t582 = t463 * t573 - (rear_contacts1bn0_z * t448 + (t160 + (q0r1_x * rear_contactc_z - q0r2_x *
+      rear_contactc_y)));
+  const Real t588 = t495 * t582 + (rear_contacts1bn0_z * t453 - t485 * t573);
+  const Real t594 = t516 * t588 - (t510 * t582 + (rear_contacts1bn0_z * t457 - t489 * t573));
+  const Real t601 = t531 * t594 - (t528 * t588 - (t513 * t582 - (t492 * t573 + (Real(1.0) -
+      rear_contacts1bn0_z * t460))));
+  const Real t603 = model.rear_radius * q0r1_x - rear_contacts2bn0_z * t424;
+  const Real t612 = t463 * t603 + (rear_contacts2bn0_z * t448 + (q0r2_x * rear_contactc_x + (t150 + q0r0_x *
+      rear_contactc_z)));
+  const Real t618 = t495 * t612 - (rear_contacts2bn0_z * t453 + t485 * t603);
+  const Real t625 = t516 * t618 - (t510 * t612 - (t489 * t603 + (Real(1.0) + rear_contacts2bn0_z * t457)));
+  const Real t631 = t531 * t625 - (t528 * t618 - (t513 * t612 - (rear_contacts2bn0_z * t460 + t492 * t603)));
+  const Real t633 = t50 * t89 + t47 * t110;
+  const Real t635 = t77 * t383 + (t633 + t633);
+  const Real t646 = t424 * t635 - (t77 * t403 - (t50 * t132 + (t47 * t122 - (t49 * t89 + t48 * t110))));
+  const Real t657 = t463 * t646 - (t448 * t635 - (t77 * t409 - (t47 * t132 - (t50 * t122 - (t48 * t89 - t49 *
+      t110)))));
+  const Real t665 = t495 * t657 - (t485 * t646 - (t453 * t635 + (Real(1.0) - t77 * t414)));
+  const Real t672 = t516 * t665 - (t510 * t657 - (t489 * t646 + (t77 * t418 - t457 * t635)));
+  const Real t679 = t531 * t672 - (t528 * t665 - (t513 * t657 - (t492 * t646 + (t77 * t421 - t460 * t635))));
+  const Real t687 = front_contacts1bm_z * t383 + (front_contacts1bn3p_x * t373 + (front_contactbx2p_x * q0r0_y
+      + (front_contacts1bn0_z - front_contactbx3_x * q0r0_x)));
+  const Real t698 = t424 * t687 - (front_contacts1bm_z * t403 + (front_contacts1bn3p_x * t377 -
+      (front_contactbx2p_x * q0r0_z + (front_contacts1bn0_y + front_contactbx2p_z * q0r0_x))));
+  const Real t709 = t463 * t698 - (t448 * t687 - (front_contacts1bm_z * t409 + (front_contacts1bn3p_x * t380 -
+      (front_contactbx3_x * q0r0_z + (front_contacts1bn0_x + front_contactbx2p_z * q0r0_y)))));
+  const Real t716 = t495 * t709 - (t485 * t698 + (front_contacts1bm_z * t414 - t453 * t687));
+  const Real t723 = t516 * t716 - (t510 * t709 - (t489 * t698 + (front_contacts1bm_z * t418 - t457 * t687)));
+  const Real t731 = t531 * t723 - (t528 * t716 - (t513 * t709 - (t492 * t698 - (t460 * t687 - (Real(1.0) +
+      front_contacts1bm_z * t421)))));
+  const Real t739 = front_contacts2bm_z * t383 + (front_contacts2bn3p_x * t373 - (front_contactbx2p_x * q0r1_y
+      + (front_contacts2bn0_z + front_contactbx3_x * q0r1_x)));
+  const Real t750 = t424 * t739 - (front_contacts2bm_z * t403 + (front_contacts2bn3p_x * t377 -
+      (front_contactbx2p_x * q0r1_z + (front_contacts2bn0_y + front_contactbx2p_z * q0r1_x))));
+  const Real t761 = t463 * t750 - (t448 * t739 - (front_contacts2bm_z * t409 + (front_contacts2bn3p_x * t380 -
+      (front_contactbx3_x * q0r1_z - (front_contacts2bn0_x + front_contactbx2p_z * q0r1_y)))));
+  const Real t768 = t495 * t761 - (t485 * t750 + (front_contacts2bm_z * t414 - t453 * t739));
+  const Real t776 = t516 * t768 - (t510 * t761 - (t489 * t750 - (t457 * t739 - (Real(1.0) +
+      front_contacts2bm_z * t418))));
+  const Real t783 = t531 * t776 - (t528 * t768 - (t513 * t761 - (t492 * t750 + (front_contacts2bm_z * t421 -
+      t460 * t739))));
+  const Real t796 = t539 * t601;
+  const Real t797 = t530 * t594;
+  const Real t798 = t515 * t588;
+  const Real t799 = t494 * t582;
+  const Real t800 = t462 * t573;
+  const Real t801 = rear_contacts1bn0_z * t423;
+  const Real t812 = t138 * t801 - (t542 * t800 - (t552 * t799 - (t559 * t798 + (t571 * t796 - t565 * t797))));
+  const Real t822 = t539 * t631;
+  const Real t823 = t530 * t625;
+  const Real t824 = t515 * t618;
+  const Real t825 = t494 * t612;
+  const Real t826 = t462 * t603;
+  const Real t827 = rear_contacts2bn0_z * t423;
+  const Real t828 = rear_contacts2bn0_y * Real(8.333333333333334);
+  const Real t839 = t138 * t827 + (t542 * t826 - (t552 * t825 - (t559 * t824 + (t571 * t822 - t565 * t823))));
+  const Real t854 = t539 * t679;
+  const Real t855 = t530 * t672;
+  const Real t856 = t515 * t665;
+  const Real t857 = t494 * t657;
+  const Real t858 = t462 * t646;
+  const Real t859 = t423 * t635;
+  const Real t870 = t138 * t859 - (t542 * t858 - (t552 * t857 - (t559 * t856 + (t571 * t854 - t565 * t855))));
+  const Real t891 = t539 * t731;
+  const Real t892 = t530 * t723;
+  const Real t893 = t515 * t716;
+  const Real t894 = t494 * t709;
+  const Real t895 = t462 * t698;
+  const Real t896 = t423 * t687;
+  const Real t897 = front_contacts1bm_z * model.c30;
+  const Real t908 = t138 * t896 - (t542 * t895 - (t552 * t894 - (t559 * t893 + (t571 * t891 - t565 * t892))));
+  const Real t937 = t539 * t783;
+  const Real t938 = t530 * t776;
+  const Real t939 = t515 * t768;
+  const Real t940 = t494 * t761;
+  const Real t941 = t462 * t750;
+  const Real t942 = t423 * t739;
+  const Real t943 = front_contacts2bm_z * model.c30;
+  const Real t944 = front_contacts2bn3p_x * Real(3.571428571428571);
+  const Real t955 = t138 * t942 - (t542 * t941 - (t552 * t940 - (t559 * t939 + (t571 * t937 - t565 * t938))));
+  const Real t998 = Real(1.0) / (t138 * (t138 * t423) - (t542 * (t462 * t542) - (t552 * (t494 * t552) - (t559
+      * (t515 * t559) + (t571 * (t539 * t571) - t565 * (t530 * t565))))) + Real(1.8087085566416913e-12));
+  const Real t999 = t812 * t998;
+  const Real t1010 = t839 * t998;
+  const Real t1018 = t812 * t1010 + (rear_contacts1bn0_y * t828 - (rear_contacts1bn0_z * t827 + (t573 * t826 -
+      (t582 * t825 - (t588 * t824 + (t601 * t822 - t594 * t823))))));
+  const Real t1020 = t870 * t998;
+  const Real t1027 = t812 * t1020 - (rear_contacts1bn0_z * t859 - (t573 * t858 - (t582 * t857 - (t588 * t856 +
+      (t601 * t854 - t594 * t855)))));
+  const Real t1030 = t908 * t998;
+  const Real t1037 = t812 * t1030 - (rear_contacts1bn0_z * t896 - (t573 * t895 - (t582 * t894 - (t588 * t893 +
+      (t601 * t891 - t594 * t892)))));
+  const Real t1041 = t955 * t998;
+  const Real t1048 = t812 * t1041 - (rear_contacts1bn0_z * t942 - (t573 * t941 - (t582 * t940 - (t588 * t939 +
+      (t601 * t937 - t594 * t938)))));
+  const Real t1053 = Real(1.0) / (t812 * t999 - (rear_contacts1bn0_y * rear_contacts1bn0_y *
+      Real(8.333333333333334) + (rear_contacts1bn0_z * t801 - (t573 * t800 - (t582 * t799 - (t588 * t798 +
+      (t601 * t796 - t594 * t797)))))) - Real(7.806783314072456e-11));
+  const Real t1054 = t1018 * t1053;
+  const Real t1066 = t1027 * t1053;
+  const Real t1074 = t1018 * t1066 - (t839 * t1020 - (rear_contacts2bn0_z * t859 + (t603 * t858 - (t612 * t857
+      - (t618 * t856 + (t631 * t854 - t625 * t855))))));
+  const Real t1076 = t1037 * t1053;
+  const Real t1084 = t1018 * t1076 - (t839 * t1030 - (rear_contacts2bn0_z * t896 + (t603 * t895 - (t612 * t894
+      - (t618 * t893 + (t631 * t891 - t625 * t892))))));
+  const Real t1087 = t1048 * t1053;
+  const Real t1095 = t1018 * t1087 - (t839 * t1041 - (rear_contacts2bn0_z * t942 + (t603 * t941 - (t612 * t940
+      - (t618 * t939 + (t631 * t937 - t625 * t938))))));
+  const Real t1099 = Real(1.0) / (t1018 * t1054 - (t839 * t1010 - (rear_contacts2bn0_y * t828 +
+      (rear_contacts2bn0_z * t827 - (t603 * t826 - (t612 * t825 - (t618 * t824 + (t631 * t822 - t625 *
+      t823))))))) + Real(8.816994788327498e-12));
+  const Real t1100 = t1074 * t1099;
+  const Real t1113 = t1084 * t1099;
+  const Real t1123 = t1074 * t1113 - (t1027 * t1076 - (t870 * t1030 + (t77 * t897 - (t635 * t896 - (t646 *
+      t895 - (t657 * t894 - (t665 * t893 + (t679 * t891 - t672 * t892))))))));
+  const Real t1125 = t1095 * t1099;
+  const Real t1135 = t1074 * t1125 - (t1027 * t1087 - (t870 * t1041 + (t77 * t943 - (t635 * t942 - (t646 *
+      t941 - (t657 * t940 - (t665 * t939 + (t679 * t937 - t672 * t938))))))));
+  const Real t1138 = Real(1.0) / (t1074 * t1100 - (t1027 * t1066 - (t870 * t1020 + (model.c30 * (t77 * t77) -
+      (t635 * t859 - (t646 * t858 - (t657 * t857 - (t665 * t856 + (t679 * t854 - t672 * t855)))))))) -
       Real(3.988016169236579e-12));
-  const Real t1171 = t1155 * t1170;
-  const Real t1186 = t1167 * t1170;
-  const Real t1198 = t753 * t970 + (t761 * t969 - (t745 * t971 + (t737 * t972 + (t726 * t973 - (t715 * t974 -
-      (front_contacts1bm_z * t975 + (front_contacts1bn3p_x * t976 + (t940 * t1073 + (t1069 * t1119 + (t1116 *
-      t1157 + t1155 * t1186))))))))));
-  const Real t1200 = Real(1.0) / (t753 * t924 + (t761 * t923 - (t745 * t925 + (t737 * t926 + (t726 * t927 -
-      (t715 * t928 - (front_contacts1bm_z * t929 - (Real(3.571428571428571) * (front_contacts1bn3p_x *
-      front_contacts1bn3p_x) - (t940 * t1062 + (t1069 * t1108 + (t1116 * t1145 + t1155 * t1171)))))))))) +
+  const Real t1139 = t1123 * t1138;
+  const Real t1154 = t1135 * t1138;
+  const Real t1166 = t1123 * t1154 - (t1084 * t1125 - (t1037 * t1087 - (t908 * t1041 - (front_contacts1bn3p_x
+      * t944 - (front_contacts1bm_z * t943 - (t687 * t942 - (t698 * t941 - (t709 * t940 - (t716 * t939 + (t731
+      * t937 - t723 * t938))))))))));
+  const Real t1168 = Real(1.0) / (t1123 * t1139 - (t1084 * t1113 - (t1037 * t1076 - (t908 * t1030 -
+      (Real(3.571428571428571) * (front_contacts1bn3p_x * front_contacts1bn3p_x) - (front_contacts1bm_z * t897
+      - (t687 * t896 - (t698 * t895 - (t709 * t894 - (t716 * t893 + (t731 * t891 - t723 * t892)))))))))) +
       Real(4.6476630875276904e-11));
-  const Real t1201 = t1198 * t1200;
-  const Real t1217 = Real(1.0) / (t807 * t970 + (t815 * t969 - (t799 * t971 + (t791 * t972 + (t780 * t973 -
-      (t769 * t974 - (front_contacts2bm_z * t975 - (front_contacts2bn3p_x * t976 - (t987 * t1073 + (t1080 *
-      t1119 + (t1127 * t1157 + (t1167 * t1186 + t1198 * t1201))))))))))) + Real(2.7054786900152528e-11));
-  const Real t1224 = q0d2 * t49 - (q0d3 * t50 + (state.y[3] * state.y[3] - q0d1 * t48));
-  const Real t1233 = t49 * state.z[4] + (t48 * state.z[3] + t50 * state.z[5]);
-  const Real t1238 = t50 * state.z[4] - (t47 * state.z[3] + t49 * state.z[5]);
-  const Real t1243 = t47 * state.z[4] + (t50 * state.z[3] - t48 * state.z[5]);
-  const Real t1263 = Real(2.0) * t1238;
-  const Real t1266 = q0d1 * t1263;
-  const Real t1268 = Real(2.0) * t1243;
-  const Real t1270 = q0d2 * t1268;
-  const Real t1273 = q0d2 * t1238 - state.y[4] * t1268;
-  const Real t1274 = Real(2.0) * (t48 * state.z[4] - (t49 * state.z[3] - t47 * state.z[5]));
-  const Real t1276 = q0d3 * t1243 + state.y[5] * t1274;
-  const Real t1278 = q0d3 * t1238 - state.y[4] * t1274;
-  const Real t1279 = q0d3 * t1274;
-  const Real t1282 = state.y[3] * t1263 + q0d1 * t1233;
-  const Real t1284 = state.y[3] * t1268 - q0d2 * t1233;
-  const Real t1286 = state.y[3] * t1274 - q0d3 * t1233;
-  const Real t1287 = t1276 - t1282;
-  const Real t1288 = t1276 + t1282;
-  const Real t1290 = Real(2.0) * t1287;
-  const Real t1300 = t1266 - t1270;
-  const Real t1310 = t82 * t1287;
-  const Real t1311 = t52 * t53 * t1310;
-  const Real t1315 = t1278 + t1284;
-  const Real t1316 = t1278 - t1284;
-  const Real t1326 = s2 * state.z[7];
-  const Real t1327 = c2 * state.z[7];
-  const Real t1328 = model.r_front_y * t1326;
-  const Real t1337 = model.r_front_y * t1327;
-  const Real t1338 = Real(0.9510565162951535) * t1327;
-  const Real t1339 = Real(0.3090169943749474) * t1327;
-  const Real t1351 = Real(0.9510565162951535) * t1328;
-  const Real t1352 = Real(0.3090169943749474) * t1328;
-  const Real t1373 = front_contactbd2p_x * t1315 - q0r2_x * t1338;
-  const Real t1377 = q0r2_z * t1339 - (front_contactbd2p_z * t1300 + (c2 * t1287 - (q0r2_y * t1326 - t1373)));
-  const Real t1378 = t54 * t1377;
-  const Real t1381 = t56 * t1378;
-  const Real t1382 = model.front_radius * t1378;
-  const Real t1385 = t55 * front_contactc_z * t1381;
-  const Real t1414 = Real(2.0) * (t58 * t1377) + model.front_radius * (t54 * (t55 * t56 * t1381));
-  const Real t1419 = q0r2_x * t1414;
-  const Real t1423 = t59 * t1338 - (t1351 + front_contactbd2p_x * t1414);
-  const Real t1472 = t1266 - t1279;
-  const Real t1473 = t1273 + t1286;
-  const Real t1474 = t1273 - t1286;
-  const Real t1475 = t1270 + t1279;
-  const Real t1486 = model.rear_radius * t1473;
-  const Real t1509 = q0r1_x * t1475 - q0r0_x * t1474;
-  const Real t1521 = q0r1_y * t1473 + q0r0_y * t1472;
-  const Real t1524 = q0r1_y * t1287 - q0r2_y * t1472;
-  const Real t1532 = q0r1_z * t1316 - q0r0_z * t1288;
-  const Real t1543 = t52 * rear_contactc_y * t1310 + model.rear_radius * (t52 * t1524);
-  const Real t1548 = t52 * rear_contactc_z * t1310 - t84 * t1290;
-  const Real t1555 = s2 * state.z[8];
-  const Real t1557 = state.z[4] + c2 * state.z[8];
-  const Real t1562 = Real(0.3090169943749474) * state.z[7] + (state.z[3] - Real(0.9510565162951535) * t1555);
-  const Real t1565 = Real(0.9510565162951535) * state.z[7] + (state.z[5] + Real(0.3090169943749474) * t1555);
-  const Real t1572 = q0r2_y * t1557 - (q0r2_z * t1565 - q0r2_x * t1562);
-  const Real t1575 = q0r0_y * t1557 + (q0r0_z * t1565 - q0r0_x * t1562);
-  const Real t1576 = t55 * t1572;
-  const Real t1580 = t59 * t1572;
-  const Real t1585 = q0r1_y * t1557 - (q0r1_z * t1565 + q0r1_x * t1562);
-  const Real t1595 = state.z[4] + state.z[6];
-  const Real t1602 = q0r2_y * t1595 - (q0r2_z * state.z[5] - q0r2_x * state.z[3]);
-  const Real t1603 = t52 * t1602;
-  const Real t1607 = state.z[0] * t1532;
-  const Real t1608 = state.z[0] * t1521;
-  const Real t1609 = state.z[0] * t1509;
+  const Real t1169 = t1166 * t1168;
+  const Real t1185 = Real(1.0) / (t1166 * t1169 - (t1135 * t1154 - (t1095 * t1125 - (t1048 * t1087 - (t955 *
+      t1041 - (front_contacts2bn3p_x * t944 - (front_contacts2bm_z * t943 - (t739 * t942 - (t750 * t941 -
+      (t761 * t940 - (t768 * t939 + (t783 * t937 - t776 * t938))))))))))) - Real(2.7054786900152528e-11));
+  const Real t1192 = q0d1 * t48 - (state.y[3] * state.y[3] + (q0d3 * t50 - q0d2 * t49));
+  const Real t1201 = t50 * state.z[5] + (t48 * state.z[3] + t49 * state.z[4]);
+  const Real t1206 = t49 * state.z[5] + (t47 * state.z[3] - t50 * state.z[4]);
+  const Real t1211 = t48 * state.z[5] - (t50 * state.z[3] + t47 * state.z[4]);
+  const Real t1225 = Real(2.0) * t1206;
+  const Real t1228 = q0d1 * t1225;
+  const Real t1230 = Real(2.0) * t1211;
+  const Real t1232 = q0d2 * t1230;
+  const Real t1235 = q0d2 * t1206 - state.y[4] * t1230;
+  const Real t1236 = Real(2.0) * (t47 * state.z[5] - (t49 * state.z[3] - t48 * state.z[4]));
+  const Real t1238 = q0d3 * t1211 - state.y[5] * t1236;
+  const Real t1240 = q0d3 * t1206 + state.y[4] * t1236;
+  const Real t1241 = q0d3 * t1236;
+  const Real t1244 = state.y[3] * t1225 - q0d1 * t1201;
+  const Real t1246 = state.y[3] * t1230 + q0d2 * t1201;
+  const Real t1248 = state.y[3] * t1236 - q0d3 * t1201;
+  const Real t1249 = t1238 - t1244;
+  const Real t1250 = t1238 + t1244;
+  const Real t1251 = t51 * t1249;
+  const Real t1253 = Real(2.0) * t1249;
+  const Real t1262 = t1228 - t1232;
+  const Real t1268 = t53 * t1251;
+  const Real t1269 = model.rear_radius * t1251;
+  const Real t1270 = t52 * t53 * t1268;
+  const Real t1272 = t52 * rear_contactc_z * t1268;
+  const Real t1274 = t1240 + t1246;
+  const Real t1275 = t1240 - t1246;
+  const Real t1281 = s2 * state.z[7];
+  const Real t1282 = c2 * state.z[7];
+  const Real t1283 = model.r_front_y * t1281;
+  const Real t1292 = model.r_front_y * t1282;
+  const Real t1293 = Real(0.9510565162951535) * t1282;
+  const Real t1294 = Real(0.3090169943749474) * t1282;
+  const Real t1305 = Real(0.9510565162951535) * t1283;
+  const Real t1306 = Real(0.3090169943749474) * t1283;
+  const Real t1331 = q0r2_x * t1293 + (front_contactbd2p_x * t1274 + (q0r2_y * t1281 + (c2 * t1249 +
+      (front_contactbd2p_z * t1262 + q0r2_z * t1294))));
+  const Real t1332 = t54 * t1331;
+  const Real t1335 = t56 * t1332;
+  const Real t1336 = model.front_radius * t1332;
+  const Real t1339 = t55 * front_contactc_z * t1335;
+  const Real t1369 = Real(2.0) * (t58 * t1331) + model.front_radius * (t54 * (t55 * t56 * t1335));
+  const Real t1374 = q0r2_x * t1369;
+  const Real t1378 = front_contactbd2p_x * t1369 + (t1305 + t59 * t1293);
+  const Real t1425 = t1292 + (front_contactbx2p_x * state.z[5] + front_contactbx2p_z * state.z[3]);
+  const Real t1426 = s2 * state.z[8];
+  const Real t1428 = state.z[4] + c2 * state.z[8];
+  const Real t1433 = Real(0.9510565162951535) * t1426 - (state.z[3] + Real(0.3090169943749474) * state.z[7]);
+  const Real t1436 = Real(0.3090169943749474) * t1426 + (state.z[5] + Real(0.9510565162951535) * state.z[7]);
+  const Real t1447 = q0r2_x * t1433 + (q0r2_z * t1436 - q0r2_y * t1428);
+  const Real t1452 = q0r0_x * t1433 - (q0r0_z * t1436 + q0r0_y * t1428);
+  const Real t1454 = t1305 + (front_contactbx3_x * state.z[5] + front_contactbx2p_z * state.z[4]);
+  const Real t1456 = t1306 - (front_contactbx2p_x * state.z[4] - front_contactbx3_x * state.z[3]);
+  const Real t1457 = t55 * t1447;
+  const Real t1461 = t59 * t1447;
+  const Real t1463 = front_contactc_z * t1436 + front_contactbd2p_z * t1461;
+  const Real t1465 = front_contactc_z * t1428 + c2 * t1461;
+  const Real t1467 = front_contactc_z * t1433 + front_contactbd2p_x * t1461;
+  const Real t1475 = q0r1_x * t1433 - (q0r1_z * t1436 - q0r1_y * t1428);
+  const Real t1485 = state.z[4] + state.z[6];
+  const Real t1486 = model.rear_radius * state.z[4];
+  const Real t1489 = rear_contactc_z * state.z[5];
+  const Real t1495 = q0r2_x * state.z[3] - (q0r2_z * state.z[5] - q0r2_y * t1485);
+  const Real t1496 = rear_contactc_z * state.z[3];
+  const Real t1499 = q0r0_x * state.z[3] + (q0r0_z * state.z[5] + q0r0_y * t1485);
+  const Real t1500 = t52 * t1495;
+  const Real t1506 = model.rear_radius * state.z[3];
+  const Real t1508 = rear_contactc_z * t1485 + t84 * t1495;
+  const Real t1513 = q0r1_x * state.z[3] + (q0r1_z * state.z[5] - q0r1_y * t1485);
+  const Real t1530 = t1496 - t1506;
+  const Real t1532 = t1486 - t1508;
+  const Real t1534 = t1425 + t1467;
+  const Real t1536 = t1454 - t1465;
   const Real w2p_y = Real(0.3090169943749474) * state.z[5] - Real(0.9510565162951535) * state.z[3];
   const Real w2p_z = Real(0.3090169943749474) * state.z[3] + Real(0.9510565162951535) * state.z[5];
   const Real w2_z = state.z[7] + w2p_z;
@@ -1020,10 +1017,10 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real rfallW_x = q0r2_x * Real(9.81);
   const Real rfallW_y = q0r2_y * Real(9.81);
   const Real rfallW_z = q0r2_z * Real(9.81);
-  const Real rSu0_x = state.z[4] * S2c_xy - (state.z[3] * S1c_xx - state.z[5] * S2c_xz);
-  const Real rSu0_y = state.z[4] * S2c_yy + (state.z[3] * S2c_xy - state.z[5] * S2c_yz);
-  const Real rSu0_z = state.z[4] * S2c_yz - (state.z[3] * S2c_xz + state.z[5] * S1c_zz);
-  const Real ruh0 = state.z[4] * h2b_x + (state.z[3] * h2c_x - state.z[5] * h2c_z);
+  const Real rSu0_x = state.z[5] * S2c_xz - (state.z[3] * S1c_xx + state.z[4] * S2c_xy);
+  const Real rSu0_y = state.z[5] * S2c_yz - (state.z[3] * S2c_xy - state.z[4] * S2c_yy);
+  const Real rSu0_z = state.z[5] * S1c_zz - (state.z[3] * S2c_xz + state.z[4] * S2c_yz);
+  const Real ruh0 = state.z[5] * h2c_z - (state.z[3] * h2c_x + state.z[4] * h2b_x);
   const Real rL0w00 = state.z[3] * state.z[3];
   const Real rL0w11 = state.z[4] * state.z[4];
   const Real rL0U2_z = rL0w00 + rL0w11;
@@ -1036,12 +1033,12 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real rL0w02 = state.z[3] * state.z[5];
   const Real rL0w12 = state.z[4] * state.z[5];
   const Real rL0U0_x = rL0w11 + rL0w22;
-  const Real ra2o_x = model.r_steer_x * rL0U0_x + (rfallW_x + model.r_steer_z * rL0w02);
-  const Real ra2o_y = model.r_steer_x * rL0w01 - (rfallW_y + model.r_steer_z * rL0w12);
-  const Real ra2o_z = model.r_steer_x * rL0w02 + (rfallW_z + model.r_steer_z * rL0U2_z);
+  const Real ra2o_x = model.r_steer_z * rL0w02 + (rfallW_x + model.r_steer_x * rL0U0_x);
+  const Real ra2o_y = model.r_steer_z * rL0w12 + (rfallW_y - model.r_steer_x * rL0w01);
+  const Real ra2o_z = model.r_steer_z * rL0U2_z + (rfallW_z + model.r_steer_x * rL0w02);
   const Real ra2_y = Real(0.3090169943749474) * ra2o_z + Real(0.9510565162951535) * ra2o_x;
-  const Real rKx2 = S2b_xy * w2p_y - (state.z[4] * S2b_xx - S2b_xz * w2p_z);
-  const Real rKy2 = S2b_yz * w2p_z - (state.z[4] * S2b_xy + S2b_yy * w2p_y);
+  const Real rKx2 = S2b_xz * w2p_z - (state.z[4] * S2b_xx - S2b_xy * w2p_y);
+  const Real rKy2 = S2b_yy * w2p_y + (state.z[4] * S2b_xy - S2b_yz * w2p_z);
   const Real z2_2 = Real(2.0) * state.z[7];
   const Real zz_2 = state.z[7] * state.z[7];
   const Real zw_2 = state.z[7] * (w2p_z + w2_z);
@@ -1055,150 +1052,135 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real rdn3_y = rKx3 * z2_3;
   const Real rn2b_x = s2 * rdn3_x;
   const Real rn2b_y = c2 * rdn3_x;
-  const Real rn2_y = rKx2 * z2_2 + (S2b_xz * zz_2 - rn2b_y);
+  const Real rn2_y = rn2b_y - (S2b_xz * zz_2 + rKx2 * z2_2);
   const Real rf2p_x = Real(0.3090169943749474) * rdf2_z - Real(0.9510565162951535) * rdf2_y;
   const Real rf2p_z = Real(0.3090169943749474) * rdf2_y + Real(0.9510565162951535) * rdf2_z;
-  const Real rf0_x = h2c_x * ruw0 - (state.z[3] * ruh0 + rf2p_x);
-  const Real rf0_y = h2b_x * ruw0 - (state.z[4] * ruh0 - rdf2_x);
-  const Real rf0_z = h2c_z * ruw0 + (state.z[5] * ruh0 + rf2p_z);
-  const Real tau_2_0 = h2b_x * ra2_y + (state.z[4] * rKy2 + (h2b_y * ra2o_y + (w2p_y * rKx2 + (rdn3_y -
-      input.u[0]))));
-  const Real t1779 = state.z[4] * rSu0_x - (state.z[3] * rSu0_y + (h2b_x * rfallW_x - (h2c_x * rfallW_y -
-      (rdn1_x - (Real(0.3090169943749474) * rn2_y - (Real(0.9510565162951535) * rdn3_y - (model.r_steer_x *
-      rdf2_x - (t397 * rQp3 + t407 * tau_2_0))))))));
-  const Real t1796 = state.z[5] * rSu0_x + (state.z[3] * rSu0_z - (h2c_x * rfallW_z - (h2c_z * rfallW_x -
-      (S2b_yz * zz_2 + (rKy2 * z2_2 + (rn2b_x + (model.r_steer_x * rf2p_z + (model.r_steer_z * rf2p_x - (t401
-      * rQp3 - (t427 * tau_2_0 + t448 * t1779))))))))));
-  const Real t1812 = state.z[5] * rSu0_y + (state.z[4] * rSu0_z - (h2b_x * rfallW_z - (h2c_z * rfallW_y +
-      (rdn1_y - (Real(0.3090169943749474) * rdn3_y + (Real(0.9510565162951535) * rn2_y - (model.r_steer_z *
-      rdf2_x + (t404 * rQp3 + (t433 * tau_2_0 - (t472 * t1779 + t487 * t1796))))))))));
-  const Real t1824 = q0r2_y * rf0_y + (q0r2_x * rf0_x + (q0r2_z * rf0_z - (t438 * tau_2_0 + (t477 * t1779 +
-      (t509 * t1796 + t519 * t1812))))) + Real(922.1400000000001);
-  const Real t1834 = q0r1_y * rf0_y - (q0r1_x * rf0_x - (q0r1_z * rf0_z - (t442 * tau_2_0 + (t481 * t1779 +
-      (t513 * t1796 + (t534 * t1812 + t540 * t1824))))));
-  const Real t1844 = q0r0_y * rf0_y - (q0r0_x * rf0_x + (q0r0_z * rf0_z + (t445 * tau_2_0 + (t484 * t1779 -
-      (t516 * t1796 + (t537 * t1812 - (t552 * t1824 - t555 * t1834)))))));
-  const Real t1845 = t563 * t1844;
-  const Real t1846 = t554 * t1834;
-  const Real t1847 = t539 * t1824;
-  const Real t1848 = t518 * t1812;
-  const Real t1849 = t486 * t1796;
-  const Real t1850 = t447 * t1779;
-  const Real t1851 = model.c30 * tau_2_0;
-  const Real t1852 = Real(3.571428571428571) * rQp3;
-  const Real t1902 = t589 * t1846 - (t595 * t1845 - (t583 * t1847 + (t576 * t1848 + (t566 * t1849 + (t138 *
-      t1850 - model.rear_radius * (state.z[4] * t1315 + (state.z[3] * (t53 * (t1224 * t1290 - t51 * t1300) +
-      (t1287 + t51 * t1224 * t1311)) + state.z[5] * (q0r2_x * t51 * t1311 + t53 * (q0r2_x * t1290 - t51 *
-      t1315)))))))));
-  const Real t1927 = state.z[0] * ((q0r0_z + q0r0_z) * t1316 - ((q0r0_x + q0r0_x) * t1475 - (q0r0_y + q0r0_y)
-      * t1473)) + (state.z[1] * (t1532 + (t1509 - t1521)) - state.z[2] * (q0r0_y * t1287 - q0r2_y * t1473 +
-      (q0r0_x * t1315 - q0r2_x * t1475 + (q0r0_z * t1300 + q0r2_z * t1316))));
-  const Real t1938 = t1927 - (model.rear_radius * (state.z[4] * t1475) - (t627 * t1845 + (t620 * t1846 - (t613
-      * t1847 + (t606 * t1848 + (t597 * t1849 + (rear_contacts1bn0_z * t1850 + (t1031 * t1902 - (t1595 *
-      (q0r1_y * t1548 - (rear_contactc_z * t1472 - (rear_contactc_y * t1287 + q0r2_y * t1543))) + (state.z[3]
-      * (q0r2_x * t1543 - (rear_contactc_y * t1315 - (t1486 + (rear_contactc_z * t1474 - q0r1_x * t1548)))) -
-      state.z[5] * (q0r1_z * t1548 + (rear_contactc_z * t1288 - (rear_contactc_y * t1300 - q0r2_z *
-      t1543)))))))))))));
-  const Real t1960 = state.z[1] * ((q0r1_z + q0r1_z) * t1288 - ((q0r1_x + q0r1_x) * t1474 + (q0r1_y + q0r1_y)
-      * t1472)) - state.z[2] * (t1524 + (q0r1_x * t1315 + q0r2_x * t1474 - (q0r1_z * t1300 - q0r2_z *
-      t1288)));
-  const Real t1978 = t1960 + (model.rear_radius * (state.z[4] * t1474) - (t52 * rear_contactc_x * t1310 *
-      t1602 + (t161 * t1287 * t1603 + (t1607 - (t1608 - (t1609 - (t1486 * (q0r2_y * t1603) + (t659 * t1845 +
-      (t652 * t1846 - (t645 * t1847 + (t638 * t1848 + (t629 * t1849 + (rear_contacts2bn0_z * t1850 + (t1042 *
-      t1902 + (t1086 * t1938 + (t1595 * (q0r0_y * t1548 + (rear_contactc_x * t1287 - rear_contactc_z * t1473))
-      - (state.z[3] * (model.rear_radius * t1472 + (rear_contactc_x * t1315 + (rear_contactc_z * t1475 +
-      q0r0_x * t1548))) - state.z[5] * (q0r0_z * t1548 + (rear_contactc_x * t1300 - rear_contactc_z *
-      t1316)))))))))))))))))));
-  const Real t1995 = state.z[4] * (front_contactbx2p_z * t1315 + (q0r2_x * t1352 + (t1224 * t1423 +
-      (front_contactbd2p_z * t1419 + (t59 * t1373 * Real(0.3249196962329063) - t66 * t1300))))) + (state.z[3]
-      * (front_contactbx3_x * t1300 - (t1224 * t1337 + (q0r2_y * t1352 - (front_contactbx2p_z * t1287 + (t59 *
-      (front_contactbd2p_z * t1287 + (q0r2_y * t1339 - (t1224 * t1326 + c2 * t1300))) - t1414 * (c2 * t1224 +
-      q0r2_y * front_contactbd2p_z)))))) - (state.z[7] * (s2 * (q0r2_y * t1414 - (t59 * t1287 +
-      model.r_front_y * (Real(0.3090169943749474) * t1300 + Real(0.9510565162951535) * t1315))) - (t71 * t1327
-      - (t74 * t1326 + c2 * (Real(0.3090169943749474) * (t59 * t1300 + q0r2_z * t1414) - (model.r_front_y *
-      t1287 - Real(0.9510565162951535) * (t59 * t1315 + t1419)))))) - (state.z[5] * (front_contactbx3_x *
-      t1315 - (q0r2_x * t1337 - (q0r2_y * t1423 - (c2 * t1419 + (t59 * (q0r2_x * t1326 + c2 * t1315) - t66 *
-      t1287))))) - (t707 * t1845 + (t700 * t1846 + (t693 * t1847 - (t685 * t1848 + (t674 * t1849 + (t663 *
-      t1850 + (t77 * t1851 + (t1052 * t1902 + (t1098 * t1938 + t1132 * t1978))))))))))));
-  const Real t2055 = t1382 * (t55 * t1585) - (t1385 * t1585 + (t55 * front_contactc_y * t1381 * t1572 +
-      (model.front_radius * (front_contactbd0p_y * t1377 * t1576) - (t1927 - (t761 * t1845 + (t753 * t1846 -
-      (t745 * t1847 + (t737 * t1848 - (t726 * t1849 + (t715 * t1850 + (front_contacts1bm_z * t1851 -
-      (front_contacts1bn3p_x * t1852 + (t1062 * t1902 + (t1108 * t1938 + (t1145 * t1978 - (t1171 * t1995 -
-      (t1565 * (front_contactc_y * t1300 - front_contactc_z * t1288) - (t1562 * (front_contactc_y * t1315 -
-      front_contactc_z * t1474) - (t1557 * (front_contactc_y * t1287 - front_contactc_z * t1472) - (t1328 *
-      (Real(0.9510565162951535) * t1475 - Real(0.3090169943749474) * t1316) + (state.z[8] *
-      (front_contacts1bn0_y * t1326 + front_contacts1bn2_y * t1327) - (state.z[7] * (front_contactbx3_y *
-      t1473 - (front_contacts1bf2_y * t1337 - q0r0_y * t1328)) + (state.z[5] * (front_contactbx2p_x * t1473 +
-      (q0r0_y * t1351 - (q0r0_x * t1337 + front_contactbx3_x * t1475))) - (state.z[4] * (front_contactbx2p_x *
-      t1316 + (q0r0_z * t1351 - (q0r0_x * t1352 - front_contactbx2p_z * t1475))) + (t1580 *
-      (front_contactbd2p_z * t1288 + (q0r1_z * t1339 + (c2 * t1472 + (q0r1_y * t1326 - (q0r1_x * t1338 -
-      front_contactbd2p_x * t1474))))) - state.z[3] * (front_contactbx3_x * t1316 - (q0r0_z * t1337 - (q0r0_y
-      * t1352 + front_contactbx2p_z * t1473))))))))))))))))))))))))))));
-  const Real t2124 = t1217 * (model.front_radius * (front_contactbd0p_x * t1377 * t1576) + (t55 *
-      front_contactc_x * t1381 * t1572 + (t1385 * t1575 - (t1382 * (t55 * t1575) - (t1960 - (t1607 - (t1608 -
-      (t1609 + (t815 * t1845 + (t807 * t1846 - (t799 * t1847 + (t791 * t1848 - (t780 * t1849 + (t769 * t1850 +
-      (front_contacts2bm_z * t1851 + (front_contacts2bn3p_x * t1852 - (t1073 * t1902 + (t1119 * t1938 + (t1157
-      * t1978 - (t1186 * t1995 + (t1201 * t2055 + (t1565 * (front_contactc_x * t1300 - front_contactc_z *
-      t1316) - (t1562 * (front_contactc_x * t1315 + front_contactc_z * t1475) - (t1557 * (front_contactc_x *
-      t1287 - front_contactc_z * t1473) - (t1328 * (Real(0.9510565162951535) * t1474 +
-      Real(0.3090169943749474) * t1288) + (state.z[8] * (front_contacts2bn0_y * t1326 - front_contacts2bn2_y *
-      t1327) + (state.z[7] * (front_contactbx3_y * t1472 + (front_contacts2bf2_y * t1337 + q0r1_y * t1328)) +
-      (state.z[5] * (front_contactbx2p_x * t1472 + (q0r1_y * t1351 - (q0r1_x * t1337 - front_contactbx3_x *
-      t1474))) - (state.z[4] * (front_contactbx2p_x * t1288 - (q0r1_z * t1351 + (q0r1_x * t1352 +
-      front_contactbx2p_z * t1474))) - (t1580 * (front_contactbd2p_z * t1316 - (q0r0_z * t1339 - (c2 * t1473 +
-      (q0r0_y * t1326 - (q0r0_x * t1338 + front_contactbd2p_x * t1475))))) + state.z[3] * (front_contactbx3_x
-      * t1288 + (q0r1_z * t1337 + (q0r1_y * t1352 + front_contactbx2p_z *
-      t1472)))))))))))))))))))))))))))))))));
-  const Real t2126 = t1200 * t2055 - t1201 * t2124;
-  const Real t2130 = t1171 * t2126 - (t1170 * t1995 - t1186 * t2124);
-  const Real t2136 = t1132 * t2130 - (t1131 * t1978 + (t1145 * t2126 + t1157 * t2124));
-  const Real t2144 = t1086 * t2136 + (t1085 * t1938 - (t1098 * t2130 - (t1108 * t2126 + t1119 * t2124)));
-  const Real t2154 = t1031 * t2144 - (t1030 * t1902 + (t1042 * t2136 - (t1052 * t2130 - (t1062 * t2126 + t1073
-      * t2124))));
-  const Real t2155 = Real(1.8087085566416913e-12) * t2154;
-  const Real t2162 = Real(7.806783314072456e-11) * t2144 + t1031 * t2155;
-  const Real t2169 = t1042 * t2155 - (Real(8.816994788327498e-12) * t2136 + t1086 * t2162);
-  const Real t2176 = t1052 * t2155 + (Real(3.988016169236579e-12) * t2130 - (t1098 * t2162 + t1132 * t2169));
-  const Real t2183 = t1062 * t2155 - (Real(4.6476630875276904e-11) * t2126 + (t1108 * t2162 + (t1145 * t2169 +
-      t1171 * t2176)));
-  const Real t2196 = t1217 * (t1073 * t2155 - (Real(2.7054786900152528e-11) * t2124 + (t1119 * t2162 + (t1157
-      * t2169 + (t1186 * t2176 + t1201 * t2183)))));
-  const Real t2198 = t1200 * t2183 - t1201 * t2196;
-  const Real t2202 = t1171 * t2198 - (t1170 * t2176 - t1186 * t2196);
-  const Real t2208 = t1132 * t2202 + (t1131 * t2169 - (t1145 * t2198 + t1157 * t2196));
-  const Real t2216 = t1086 * t2208 - (t1085 * t2162 + (t1098 * t2202 - (t1108 * t2198 + t1119 * t2196)));
-  const Real t2227 = t1030 * t2155 + (t2154 - (t1031 * t2216 - (t1042 * t2208 - (t1052 * t2202 - (t1062 *
-      t2198 + t1073 * t2196)))));
-  const Real t2228 = t2144 - t2216;
-  const Real t2229 = t2136 - t2208;
-  const Real t2230 = t2130 - t2202;
-  const Real t2231 = t2126 - t2198;
-  const Real t2232 = t2124 - t2196;
-  const Real t2318 = t563 * (t595 * t2227 - (t1844 - (t627 * t2228 - (t659 * t2229 - (t707 * t2230 - (t761 *
-      t2231 + t815 * t2232))))));
-  const Real t2321 = t554 * (t589 * t2227 + (t1834 - (t620 * t2228 - (t652 * t2229 - (t700 * t2230 - (t753 *
-      t2231 + t807 * t2232)))))) - t555 * t2318;
-  const Real t2326 = t552 * t2318 + (t539 * (t583 * t2227 - (t1824 - (t613 * t2228 - (t645 * t2229 + (t693 *
-      t2230 + (t745 * t2231 + t799 * t2232)))))) - t540 * t2321);
-  const Real t2333 = t537 * t2318 - (t518 * (t576 * t2227 - (t1812 - (t606 * t2228 - (t638 * t2229 - (t685 *
-      t2230 - (t737 * t2231 + t791 * t2232)))))) - (t534 * t2321 + t519 * t2326));
-  const Real t2342 = t516 * t2318 - (t486 * (t566 * t2227 - (t1796 - (t597 * t2228 - (t629 * t2229 - (t674 *
-      t2230 + (t726 * t2231 + t780 * t2232)))))) - (t513 * t2321 + (t509 * t2326 - t487 * t2333)));
-  const Real t2353 = t484 * t2318 + (t447 * (t138 * t2227 + (t1779 + (rear_contacts1bn0_z * t2228 -
-      (rear_contacts2bn0_z * t2229 - (t663 * t2230 + (t715 * t2231 + t769 * t2232)))))) - (t481 * t2321 +
-      (t477 * t2326 - (t472 * t2333 + t448 * t2342))));
-  zdot[0] = -t2318;
-  zdot[1] = -t2321;
-  zdot[2] = t2326;
-  zdot[3] = -t2333;
-  zdot[4] = t2342;
-  zdot[5] = t2353;
-  zdot[6] = -(t2342 + Real(8.333333333333334) * (rear_contacts1bn0_y * t2228 + rear_contacts2bn0_y * t2229));
-  zdot[7] = -(t445 * t2318 + (model.c30 * (t77 * t2230 - (tau_2_0 - (front_contacts1bm_z * t2231 +
-      front_contacts2bm_z * t2232))) - (t442 * t2321 + (t438 * t2326 + (t433 * t2333 - (t427 * t2342 - t407 *
-      t2353))))));
-  zdot[8] = -(t404 * t2333 + (Real(3.571428571428571) * (front_contacts1bn3p_x * t2231 - (rQp3 +
-      front_contacts2bn3p_x * t2232)) + (t401 * t2342 + t397 * t2353)));
+  const Real rf0_x = rf2p_x - (state.z[3] * ruh0 + h2c_x * ruw0);
+  const Real rf0_y = rdf2_x + (state.z[4] * ruh0 + h2b_x * ruw0);
+  const Real rf0_z = rf2p_z - (state.z[5] * ruh0 - h2c_z * ruw0);
+  const Real tau_2_0 = input.u[0] - (rdn3_y + (w2p_y * rKx2 - (h2b_y * ra2o_y + (state.z[4] * rKy2 - h2b_x *
+      ra2_y))));
+  const Real t1719 = t383 * tau_2_0 - (t373 * rQp3 - (model.r_steer_x * rdf2_x - (Real(0.9510565162951535) *
+      rdn3_y + (Real(0.3090169943749474) * rn2_y + (rdn1_x - (h2c_x * rfallW_y - (h2b_x * rfallW_x +
+      (state.z[3] * rSu0_y - state.z[4] * rSu0_x))))))));
+  const Real t1736 = t424 * t1719 - (t403 * tau_2_0 - (t377 * rQp3 - (model.r_steer_z * rf2p_x +
+      (model.r_steer_x * rf2p_z + (rn2b_x - (rKy2 * z2_2 - (S2b_yz * zz_2 - (h2c_z * rfallW_x - (h2c_x *
+      rfallW_z - (state.z[3] * rSu0_z + state.z[5] * rSu0_x))))))))));
+  const Real t1752 = t463 * t1736 - (t448 * t1719 - (t409 * tau_2_0 - (t380 * rQp3 + (model.r_steer_z * rdf2_x
+      + (Real(0.9510565162951535) * rn2_y - (Real(0.3090169943749474) * rdn3_y - (rdn1_y + (h2c_z * rfallW_y -
+      (h2b_x * rfallW_z - (state.z[4] * rSu0_z + state.z[5] * rSu0_y))))))))));
+  const Real t1764 = t495 * t1752 - (t485 * t1736 - (t453 * t1719 - (t414 * tau_2_0 - (q0r2_z * rf0_z -
+      (q0r2_x * rf0_x - q0r2_y * rf0_y))))) + Real(922.1400000000001);
+  const Real t1774 = t516 * t1764 - (t510 * t1752 - (t489 * t1736 - (t457 * t1719 - (t418 * tau_2_0 - (q0r1_z
+      * rf0_z + (q0r1_x * rf0_x + q0r1_y * rf0_y))))));
+  const Real t1784 = t531 * t1774 - (t528 * t1764 - (t513 * t1752 - (t492 * t1736 - (t460 * t1719 - (t421 *
+      tau_2_0 - (q0r0_z * rf0_z + (q0r0_x * rf0_x - q0r0_y * rf0_y)))))));
+  const Real t1785 = t539 * t1784;
+  const Real t1786 = t530 * t1774;
+  const Real t1787 = t515 * t1764;
+  const Real t1788 = t494 * t1752;
+  const Real t1789 = t462 * t1736;
+  const Real t1790 = t423 * t1719;
+  const Real t1791 = model.c30 * tau_2_0;
+  const Real t1792 = Real(3.571428571428571) * rQp3;
+  const Real t1842 = model.rear_radius * (state.z[5] * (q0r2_x * t51 * t1270 + t53 * (q0r2_x * t1253 - t51 *
+      t1274)) + (state.z[3] * (t1249 + (t51 * t1192 * t1270 + t53 * (t1192 * t1253 - t51 * t1262))) +
+      state.z[4] * t1274)) - (t138 * t1790 - (t542 * t1789 - (t552 * t1788 - (t559 * t1787 + (t571 * t1785 -
+      t565 * t1786)))));
+  const Real t1861 = t999 * t1842 + (rear_contacts1bn0_z * t1790 - (t573 * t1789 - (t582 * t1788 - (t588 *
+      t1787 - (t594 * t1786 - (t601 * t1785 - (t1241 * t1532 + (t1235 * (t1496 + t1506) + (t1248 * t1530 -
+      (t1232 * t1486 + (t1228 * t1508 + (t1250 * t1489 - (t150 * t1249 * t1500 + (t52 * rear_contactc_y *
+      t1268 * t1495 + (t1269 * (t52 * t1513) - (t1272 * t1513 - state.z[6] * (rear_contactc_y *
+      t1249)))))))))))))))));
+  const Real t1885 = t1054 * t1861 - (t1010 * t1842 + (rear_contacts2bn0_z * t1790 + (t603 * t1789 - (t612 *
+      t1788 - (t618 * t1787 - (t625 * t1786 - (t631 * t1785 - (t1241 * t1530 - (t1235 * (t1486 + t1508) +
+      (t1248 * t1532 + (t1232 * t1496 + (t1228 * t1506 + (t1269 * (t52 * t1499) - (t1272 * t1499 - (t1275 *
+      t1489 - (t160 * t1249 * t1500 + (t52 * rear_contactc_x * t1268 * t1495 + state.z[6] * (rear_contactc_x *
+      t1249))))))))))))))))));
+  const Real t1910 = state.z[5] * (c2 * t1374 - (t59 * (q0r2_x * t1281 - c2 * t1274) - (q0r2_x * t1292 +
+      (front_contactbx3_x * t1274 + (t66 * t1249 + q0r2_y * t1378))))) - (t1100 * t1885 - (t1066 * t1861 -
+      (t1020 * t1842 - (t77 * t1791 - (t635 * t1790 - (t646 * t1789 - (t657 * t1788 - (t665 * t1787 - (t672 *
+      t1786 - (t679 * t1785 - (state.z[4] * (t66 * t1262 + (t59 * (q0r2_x * t1294 + front_contactbd2p_z *
+      t1274) + (front_contactbd2p_z * t1374 - (t1192 * t1378 - (q0r2_x * t1306 - front_contactbx2p_z *
+      t1274))))) - (state.z[7] * (c2 * (Real(0.9510565162951535) * (t59 * t1274 + t1374) + (model.r_front_y *
+      t1249 + Real(0.3090169943749474) * (t59 * t1262 + q0r2_z * t1369))) + (t74 * t1281 + (t71 * t1282 + s2 *
+      (model.r_front_y * (Real(0.3090169943749474) * t1262 + Real(0.9510565162951535) * t1274) - (t59 * t1249
+      - q0r2_y * t1369))))) + state.z[3] * (t59 * (c2 * t1262 - (t1192 * t1281 - (q0r2_y * t1294 -
+      front_contactbd2p_z * t1249))) + (t1369 * (c2 * t1192 + q0r2_y * front_contactbd2p_z) +
+      (front_contactbx2p_z * t1249 + (q0r2_y * t1306 + (t1192 * t1292 + front_contactbx3_x *
+      t1262)))))))))))))))));
+  const Real t1915 = q0r1_x * t1293 - (q0r1_y * t1281 + q0r1_z * t1294);
+  const Real t1957 = state.z[3] * (q0r0_z * t1292 - q0r0_y * t1306) - (t1461 * t1915 - (state.z[4] * (q0r0_z *
+      t1305 + q0r0_x * t1306) - (state.z[5] * (q0r0_x * t1292 + q0r0_y * t1305) - (state.z[7] *
+      (front_contacts1bf2_y * t1292 - q0r0_y * t1283) + (state.z[8] * (front_contacts1bn0_y * t1281 +
+      front_contacts1bn2_y * t1282) + (t1139 * t1910 + (t1113 * t1885 - (t1076 * t1861 - (t1030 * t1842 -
+      (front_contacts1bn3p_x * t1792 + (front_contacts1bm_z * t1791 - (t687 * t1790 - (t698 * t1789 - (t709 *
+      t1788 - (t716 * t1787 - (t723 * t1786 - (t731 * t1785 - (t1241 * t1536 + (t1235 * (t1425 - t1467) -
+      (t1248 * t1534 + (t1232 * t1454 + (t1228 * t1465 + (t1250 * t1463 - (t1275 * t1456 + (model.front_radius
+      * (front_contactbd0p_y * t1331 * t1457) + (t55 * front_contactc_y * t1335 * t1447 + (t1336 * (t55 *
+      t1475) - (t1339 * t1475 - (front_contactc_y * t1274 * t1433 + (front_contactc_y * t1262 * t1436 +
+      front_contactc_y * t1249 * t1428))))))))))))))))))))))))))))));
+  const Real t2010 = t1185 * (state.z[3] * (q0r1_z * t1292 + q0r1_y * t1306) + (t1461 * (q0r0_x * t1293 +
+      (q0r0_y * t1281 - q0r0_z * t1294)) + (state.z[4] * (q0r1_z * t1305 + q0r1_x * t1306) - (state.z[5] *
+      (q0r1_x * t1292 - q0r1_y * t1305) + (model.r_front_y * (state.z[7] * t1915) - (state.z[8] *
+      (front_contacts2bn0_y * t1281 - front_contacts2bn2_y * t1282) - (t1169 * t1957 - (t1154 * t1910 + (t1125
+      * t1885 - (t1087 * t1861 - (t1041 * t1842 - (front_contacts2bn3p_x * t1792 + (front_contacts2bm_z *
+      t1791 - (t739 * t1790 - (t750 * t1789 - (t761 * t1788 - (t768 * t1787 - (t776 * t1786 - (t783 * t1785 +
+      (t1241 * t1534 + (t1235 * (t1454 + t1465) + (t1248 * t1536 - (t1232 * t1467 - (t1228 * t1425 + (t1250 *
+      t1456 + (t1275 * t1463 + (t1336 * (t55 * t1452) - (t1339 * t1452 - (model.front_radius *
+      (front_contactbd0p_x * t1331 * t1457) + (t55 * front_contactc_x * t1335 * t1447 + (front_contactc_x *
+      t1274 * t1433 + (front_contactc_x * t1262 * t1436 + front_contactc_x * t1249 *
+      t1428))))))))))))))))))))))))))))))));
+  const Real t2012 = t1168 * t1957 + t1169 * t2010;
+  const Real t2016 = t1154 * t2010 + (t1138 * t1910 - t1139 * t2012);
+  const Real t2022 = t1125 * t2010 - (t1113 * t2012 + (t1099 * t1885 + t1100 * t2016));
+  const Real t2030 = t1087 * t2010 - (t1076 * t2012 + (t1066 * t2016 + (t1053 * t1861 + t1054 * t2022)));
+  const Real t2040 = t1041 * t2010 - (t1030 * t2012 + (t1020 * t2016 + (t1010 * t2022 + (t998 * t1842 + t999 *
+      t2030))));
+  const Real t2041 = Real(1.8087085566416913e-12) * t2040;
+  const Real t2048 = Real(7.806783314072456e-11) * t2030 - t999 * t2041;
+  const Real t2055 = t1054 * t2048 - (Real(8.816994788327498e-12) * t2022 - t1010 * t2041);
+  const Real t2062 = t1100 * t2055 - (t1066 * t2048 - (Real(3.988016169236579e-12) * t2016 - t1020 * t2041));
+  const Real t2069 = t1139 * t2062 - (t1113 * t2055 - (t1076 * t2048 - (Real(4.6476630875276904e-11) * t2012 -
+      t1030 * t2041)));
+  const Real t2082 = t1185 * (t1169 * t2069 - (t1154 * t2062 - (t1125 * t2055 - (t1087 * t2048 +
+      (Real(2.7054786900152528e-11) * t2010 + t1041 * t2041)))));
+  const Real t2084 = t1168 * t2069 - t1169 * t2082;
+  const Real t2088 = t1154 * t2082 - (t1138 * t2062 - t1139 * t2084);
+  const Real t2094 = t1125 * t2082 + (t1113 * t2084 - (t1099 * t2055 + t1100 * t2088));
+  const Real t2102 = t1087 * t2082 + (t1076 * t2084 - (t1066 * t2088 + (t1053 * t2048 + t1054 * t2094)));
+  const Real t2113 = t1041 * t2082 + (t1030 * t2084 - (t1020 * t2088 + (t1010 * t2094 + (t999 * t2102 - (t2040
+      + t998 * t2041)))));
+  const Real t2114 = t2030 + t2102;
+  const Real t2115 = t2022 + t2094;
+  const Real t2116 = t2016 + t2088;
+  const Real t2117 = t2012 - t2084;
+  const Real t2118 = t2010 + t2082;
+  const Real t2204 = t539 * (t783 * t2118 - (t731 * t2117 + (t679 * t2116 - (t631 * t2115 - (t601 * t2114 -
+      (t1784 - t571 * t2113))))));
+  const Real t2207 = t530 * (t776 * t2118 - (t723 * t2117 + (t672 * t2116 - (t625 * t2115 - (t594 * t2114 -
+      (t1774 - t565 * t2113)))))) - t531 * t2204;
+  const Real t2212 = t516 * t2207 - (t515 * (t768 * t2118 - (t716 * t2117 + (t665 * t2116 - (t618 * t2115 -
+      (t588 * t2114 - (t1764 - t559 * t2113)))))) - t528 * t2204);
+  const Real t2219 = t495 * t2212 - (t510 * t2207 - (t494 * (t761 * t2118 - (t709 * t2117 + (t657 * t2116 -
+      (t612 * t2115 - (t582 * t2114 - (t1752 - t552 * t2113)))))) - t513 * t2204));
+  const Real t2228 = t463 * t2219 - (t485 * t2212 - (t489 * t2207 - (t462 * (t750 * t2118 - (t698 * t2117 +
+      (t646 * t2116 - (t603 * t2115 - (t573 * t2114 - (t1736 - t542 * t2113)))))) - t492 * t2204)));
+  const Real t2239 = t424 * t2228 - (t448 * t2219 - (t453 * t2212 - (t457 * t2207 - (t423 * (t739 * t2118 -
+      (t687 * t2117 + (t635 * t2116 + (rear_contacts2bn0_z * t2115 + (rear_contacts1bn0_z * t2114 - (t1719 -
+      t138 * t2113)))))) - t460 * t2204))));
+  zdot[0] = t2204;
+  zdot[1] = t2207;
+  zdot[2] = t2212;
+  zdot[3] = -t2219;
+  zdot[4] = -t2228;
+  zdot[5] = t2239;
+  zdot[6] = t2228 + Real(8.333333333333334) * (rear_contacts1bn0_y * t2114 - rear_contacts2bn0_y * t2115);
+  zdot[7] = t383 * t2239 - (t403 * t2228 - (t409 * t2219 - (t414 * t2212 - (t418 * t2207 - (model.c30 *
+      (front_contacts2bm_z * t2118 - (front_contacts1bm_z * t2117 - (tau_2_0 - t77 * t2116))) - t421 *
+      t2204)))));
+  zdot[8] = -(t373 * t2239 - (t377 * t2228 - (Real(3.571428571428571) * (front_contacts2bn3p_x * t2118 - (rQp3
+      + front_contacts1bn3p_x * t2117)) + t380 * t2219)));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -1224,10 +1206,10 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real q003 = q0d3 * state.y[3];
   const Real q0r0_x = q033 + (q022 - Real(1.0));
   const Real q0r0_y = q012 - q003;
-  const Real q0r0_z = q013 + q002;
   const Real q0r1_x = q012 + q003;
   const Real q0r1_y = t14 + q033;
   const Real q0r1_z = q023 - q001;
+  const Real q0r0_z = q013 + q002;
   const Real S2b_t = s2 * model.S2b_d;
   const Real S2b_xx = s2 * S2b_t - Real(0.003500000000000002);
   const Real S2b_xy = c2 * S2b_t;
@@ -1368,10 +1350,10 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real q003 = q0d3 * state.y[3];
   const Real q0r0_x = q033 + (q022 - Real(1.0));
   const Real q0r0_y = q012 - q003;
-  const Real q0r0_z = q013 + q002;
   const Real q0r1_x = q012 + q003;
   const Real q0r1_y = t14 + q033;
   const Real q0r1_z = q023 - q001;
+  const Real q0r0_z = q013 + q002;
   const Real S2b_t = s2 * model.S2b_d;
   const Real S2b_xx = s2 * S2b_t - Real(0.003500000000000002);
   const Real S2b_xy = c2 * S2b_t;
@@ -1522,24 +1504,19 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real q003 = q0d3 * state.y[3];
   const Real q0r0_x = q033 + (q022 - Real(1.0));
   const Real q0r0_y = q012 - q003;
-  const Real q0r0_z = q013 + q002;
   const Real q0r1_x = q012 + q003;
   const Real q0r1_y = t14 + q033;
   const Real q0r1_z = q023 - q001;
-  const Real t163 = model.rear_radius * q0r1_y;
-  const Real rear_contactc_y = q0r2_y * t163 / rear_contactup;
+  const Real t162 = model.rear_radius * q0r1_y;
+  const Real rear_contactc_y = q0r2_y * t162 / rear_contactup;
   const Real rear_contactc_z = model.rear_radius * (t18 / rear_contactup);
   const Real rear_contacts1bn0_y = q0r1_y * rear_contactc_z + q0r2_y * rear_contactc_y;
   const Real rear_contacts1bn0_z = q0r1_z * rear_contactc_z + q0r2_z * rear_contactc_y;
-  const Real t176 = model.rear_radius * q0r0_y;
-  const Real rear_contacts1bf_x = q0r0_y * q0r0_y + (q0r0_x * q0r0_x + q0r0_z * q0r0_z);
-  const Real rear_contacts1bf_y = q0r0_y * q0r1_y + (q0r0_x * q0r1_x - q0r0_z * q0r1_z);
-  const Real rear_contacts1bf_z = q0r2_y * q0r0_y - (q0r2_x * q0r0_x + q0r2_z * q0r0_z);
-  const Real rear_contactc_x = q0r2_y * t176 / rear_contactup;
+  const Real t175 = model.rear_radius * q0r0_y;
+  const Real q0r0_z = q013 + q002;
+  const Real rear_contactc_x = q0r2_y * t175 / rear_contactup;
   const Real rear_contacts2bn0_y = q0r0_y * rear_contactc_z + q0r2_y * rear_contactc_x;
-  const Real rear_contacts2bn0_z = q0r0_z * rear_contactc_z - q0r2_z * rear_contactc_x;
-  const Real rear_contacts2bf_y = q0r1_y * q0r1_y + (q0r1_x * q0r1_x + q0r1_z * q0r1_z);
-  const Real rear_contacts2bf_z = q0r2_y * q0r1_y - (q0r2_x * q0r1_x - q0r2_z * q0r1_z);
+  const Real rear_contacts2bn0_z = rear_contactc_z * q0r0_z - q0r2_z * rear_contactc_x;
   const Real front_contactbd0p_y = c2 * q0r1_y + (front_contactbd2p_x * q0r1_x - front_contactbd2p_z *
       q0r1_z);
   const Real front_contactc_y = model.front_radius * (front_contactbd0p_z * front_contactbd0p_y /
@@ -1575,26 +1552,26 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real h2b_y = c2 * model.front_h_y;
   const Real h2at2_x = Real(0.9510565162951535) * h2b_y;
   const Real h2at2_z = Real(0.3090169943749474) * h2b_y;
-  const Real t305 = Real(0.3090169943749474) * S2b_yz;
-  const Real S2at2r0_y = t305 + Real(0.9510565162951535) * S2b_yy;
-  const Real t308 = Real(0.9510565162951535) * S2b_yz;
-  const Real S2at2r0_z = t308 + Real(0.04326237921249264);
-  const Real S2at2r2_y = t308 - Real(0.3090169943749474) * S2b_yy;
+  const Real t280 = Real(0.3090169943749474) * S2b_yz;
+  const Real S2at2r0_y = t280 + Real(0.9510565162951535) * S2b_yy;
+  const Real t283 = Real(0.9510565162951535) * S2b_yz;
+  const Real S2at2r0_z = t283 + Real(0.04326237921249264);
+  const Real S2at2r2_y = t283 - Real(0.3090169943749474) * S2b_yy;
   const Real h2c_x = h2at2_x + model.c6;
   const Real h2c_z = h2at2_z + model.c7;
-  const Real t323 = h2b_x * model.r_steer_x;
+  const Real t298 = h2b_x * model.r_steer_x;
   const Real S2c_yy = S2b_xx - Real(0.5002999999999995);
-  const Real t327 = h2b_x * model.r_steer_z;
+  const Real t302 = h2b_x * model.r_steer_z;
   const Real S1c_xx = Real(0.3090169943749474) * (S2at2r0_z + model.SR_x) + (Real(0.9510565162951535) *
       S2at2r0_y + (h2at2_x + model.h_x) * model.c14) + model.c16;
-  const Real t340 = h2at2_z - model.h_z;
-  const Real S1c_zz = Real(0.9510565162951535) * (t305 - model.c18) + (Real(0.3090169943749474) * S2at2r2_y -
-      t340 * model.c17) - model.c19;
+  const Real t315 = h2at2_z - model.h_z;
+  const Real S1c_zz = Real(0.9510565162951535) * (t280 - model.c18) + (Real(0.3090169943749474) * S2at2r2_y -
+      t315 * model.c17) - model.c19;
   const Real p_7_2l_x = h2b_y * model.r_steer_z;
   const Real p_7_2l_z = h2b_y * model.r_steer_x;
-  const Real p_7_2n_x = p_7_2l_x - (t308 + model.c20);
-  const Real p_7_2n_y = t323 * Real(0.3090169943749474) + (S2b_xz - t327 * Real(0.9510565162951535));
-  const Real p_7_2n_z = p_7_2l_z + (t305 - model.c21);
+  const Real p_7_2n_x = p_7_2l_x - (t283 + model.c20);
+  const Real p_7_2n_y = t298 * Real(0.3090169943749474) + (S2b_xz - t302 * Real(0.9510565162951535));
+  const Real p_7_2n_z = p_7_2l_z + (t280 - model.c21);
   const Real p_7_0f_x = front_contactbd0p_x * model.front_h_y;
   const Real p_7_0f_y = front_contactbd0p_y * model.front_h_y;
   const Real p_7_0f_z = front_contactbd0p_z * model.front_h_y;
@@ -1602,359 +1579,348 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real p_8_3N_y = s2 * Real(0.28);
   const Real p_8_2n_x = Real(0.9510565162951535) * p_8_3N_y;
   const Real p_8_2n_z = Real(0.3090169943749474) * p_8_3N_y;
-  const Real t391 = p_8_2n_z * Real(3.571428571428571);
-  const Real t395 = p_8_3N_x * Real(3.571428571428571);
-  const Real t398 = p_8_2n_x * Real(3.571428571428571);
-  const Real t401 = p_7_2n_z * model.c30;
-  const Real t410 = Real(0.9510565162951535) * S2b_xz + (Real(0.3090169943749474) * S2b_xy - (t327 - (p_8_3N_x
-      * t391 + p_7_2n_y * t401)));
-  const Real t425 = Real(0.9510565162951535) * S2at2r0_z - (p_8_2n_x * t391 + (p_7_2n_x * t401 +
-      (model.r_steer_x * t340 + (model.r_steer_z * (h2at2_x + model.c9) + Real(0.3090169943749474) *
+  const Real t366 = p_8_2n_z * Real(3.571428571428571);
+  const Real t370 = p_8_3N_x * Real(3.571428571428571);
+  const Real t373 = p_8_2n_x * Real(3.571428571428571);
+  const Real t376 = p_7_2n_z * model.c30;
+  const Real t385 = Real(0.9510565162951535) * S2b_xz + (Real(0.3090169943749474) * S2b_xy - (t302 - (p_8_3N_x
+      * t366 + p_7_2n_y * t376)));
+  const Real t400 = Real(0.9510565162951535) * S2at2r0_z - (p_8_2n_x * t366 + (p_7_2n_x * t376 +
+      (model.r_steer_x * t315 + (model.r_steer_z * (h2at2_x + model.c9) + Real(0.3090169943749474) *
       (S2at2r0_y - model.SR_z)))) + Real(25.349999999999998));
-  const Real t428 = q0r2_y * h2c_x - (q0r2_x * h2b_x - p_7_0f_z * t401);
-  const Real t431 = q0r1_y * h2c_x + (q0r1_x * h2b_x + p_7_0f_y * t401);
-  const Real t434 = q0r0_y * h2c_x + (q0r0_x * h2b_x + p_7_0f_x * t401);
-  const Real t435 = p_7_2n_y * model.c30;
-  const Real t441 = p_7_2n_x * model.c30;
-  const Real t446 = p_7_0f_z * model.c30;
-  const Real t450 = p_7_0f_y * model.c30;
-  const Real t453 = p_7_0f_x * model.c30;
-  const Real t455 = Real(1.0) / (S1c_xx - (S2c_yy + (p_8_2n_z * t391 - p_7_2n_z * t401)));
-  const Real t456 = t410 * t455;
-  const Real t469 = Real(0.9510565162951535) * S2b_xy - (Real(0.3090169943749474) * S2b_xz + (t323 - (p_8_2n_x
-      * t395 - (p_7_2n_x * t435 + t425 * t456))));
-  const Real t473 = q0r2_z * h2c_x - (q0r2_x * h2c_z + (p_7_0f_z * t435 - t428 * t456));
-  const Real t477 = q0r1_z * h2c_x + (q0r1_x * h2c_z - (p_7_0f_y * t435 - t431 * t456));
-  const Real t481 = q0r0_z * h2c_x - (q0r0_x * h2c_z - (p_7_0f_x * t435 - t434 * t456));
-  const Real t482 = t425 * t455;
-  const Real t487 = t428 * t455;
-  const Real t491 = t431 * t455;
-  const Real t494 = t434 * t455;
-  const Real t496 = Real(1.0) / (S1c_xx - (S1c_zz + (p_8_3N_x * t395 - (p_7_2n_y * t435 - t410 * t456))) -
+  const Real t403 = q0r2_y * h2c_x - (q0r2_x * h2b_x - p_7_0f_z * t376);
+  const Real t406 = q0r1_y * h2c_x + (q0r1_x * h2b_x + p_7_0f_y * t376);
+  const Real t409 = q0r0_y * h2c_x + (q0r0_x * h2b_x + p_7_0f_x * t376);
+  const Real t410 = p_7_2n_y * model.c30;
+  const Real t416 = p_7_2n_x * model.c30;
+  const Real t421 = p_7_0f_z * model.c30;
+  const Real t425 = p_7_0f_y * model.c30;
+  const Real t428 = p_7_0f_x * model.c30;
+  const Real t430 = Real(1.0) / (S1c_xx - (S2c_yy + (p_8_2n_z * t366 - p_7_2n_z * t376)));
+  const Real t431 = t385 * t430;
+  const Real t444 = Real(0.9510565162951535) * S2b_xy - (Real(0.3090169943749474) * S2b_xz + (t298 - (p_8_2n_x
+      * t370 - (p_7_2n_x * t410 + t400 * t431))));
+  const Real t448 = q0r2_z * h2c_x - (q0r2_x * h2c_z + (p_7_0f_z * t410 - t403 * t431));
+  const Real t452 = q0r1_z * h2c_x + (q0r1_x * h2c_z - (p_7_0f_y * t410 - t406 * t431));
+  const Real t456 = q0r0_z * h2c_x - (q0r0_x * h2c_z - (p_7_0f_x * t410 - t409 * t431));
+  const Real t457 = t400 * t430;
+  const Real t462 = t403 * t430;
+  const Real t466 = t406 * t430;
+  const Real t469 = t409 * t430;
+  const Real t471 = Real(1.0) / (S1c_xx - (S1c_zz + (p_8_3N_x * t370 - (p_7_2n_y * t410 - t385 * t431))) -
       Real(0.12));
-  const Real t497 = t469 * t496;
-  const Real t508 = q0r2_z * h2b_x - (q0r2_y * h2c_z + (p_7_0f_z * t441 + (t428 * t482 - t473 * t497)));
-  const Real t513 = q0r1_z * h2b_x - (q0r1_y * h2c_z + (p_7_0f_y * t441 + (t431 * t482 - t477 * t497)));
-  const Real t518 = q0r0_z * h2b_x + (q0r0_y * h2c_z + (p_7_0f_x * t441 + (t434 * t482 + t481 * t497)));
-  const Real t519 = t473 * t496;
-  const Real t523 = t477 * t496;
-  const Real t526 = t481 * t496;
-  const Real t528 = Real(1.0) / (S1c_zz + (S2c_yy + (p_8_2n_x * t398 - (p_7_2n_x * t441 - (t425 * t482 + t469
-      * t497)))));
-  const Real t529 = t508 * t528;
-  const Real t539 = t431 * t487 - (p_7_0f_y * t446 - (t477 * t519 - t513 * t529));
-  const Real t543 = t434 * t487 - (p_7_0f_x * t446 + (t481 * t519 - t518 * t529));
-  const Real t544 = t513 * t528;
-  const Real t547 = t518 * t528;
-  const Real t549 = Real(1.0) / (p_7_0f_z * t446 - (t428 * t487 + (t473 * t519 - t508 * t529) - Real(94.0)));
-  const Real t550 = t539 * t549;
-  const Real t561 = t434 * t491 - (p_7_0f_x * t450 + (t481 * t523 - (t518 * t544 + t543 * t550)));
-  const Real t562 = t543 * t549;
-  const Real t564 = Real(1.0) / (p_7_0f_y * t450 + (Real(94.0) - (t431 * t491 + (t477 * t523 - (t513 * t544 -
-      t539 * t550)))));
-  const Real t565 = t561 * t564;
-  const Real t573 = Real(1.0) / (p_7_0f_x * t453 + (Real(94.0) - (t434 * t494 + (t481 * t526 - (t518 * t547 -
-      (t543 * t562 + t561 * t565))))));
-  const Real t576 = t57 * t129 - (t60 * t140 + t149 * t456);
-  const Real t586 = t59 * t119 + (t58 * t96 + (t60 * t129 + (t57 * t140 - (t149 * t482 + t497 * t576))));
-  const Real t593 = t149 * t487 + (Real(1.0) - (t519 * t576 + t529 * t586));
-  const Real t599 = t523 * t576 - (t149 * t491 - (t544 * t586 - t550 * t593));
-  const Real t605 = t526 * t576 + (t149 * t494 + (t547 * t586 + (t562 * t593 - t565 * t599)));
-  const Real t607 = model.rear_radius * q0r0_x + rear_contacts1bn0_z * t456;
-  const Real t616 = q0r2_x * rear_contactc_y - (q0r1_x * rear_contactc_z + (t176 + (rear_contacts1bn0_z * t482
-      - t497 * t607)));
-  const Real t623 = rear_contacts1bn0_z * t487 - (rear_contacts1bf_z - (t519 * t607 - t529 * t616));
-  const Real t630 = rear_contacts1bn0_z * t491 - (rear_contacts1bf_y - (t523 * t607 - (t544 * t616 - t550 *
-      t623)));
-  const Real t637 = rear_contacts1bn0_z * t494 - (rear_contacts1bf_x + (t526 * t607 - (t547 * t616 + (t562 *
-      t623 + t565 * t630))));
-  const Real t639 = model.rear_radius * q0r1_x + rear_contacts2bn0_z * t456;
-  const Real t648 = q0r0_x * rear_contactc_z - (t163 + (q0r2_x * rear_contactc_x + (rear_contacts2bn0_z * t482
-      - t497 * t639)));
-  const Real t655 = rear_contacts2bn0_z * t487 - (rear_contacts2bf_z - (t519 * t639 - t529 * t648));
-  const Real t662 = rear_contacts2bn0_z * t491 - (rear_contacts2bf_y - (t523 * t639 - (t544 * t648 - t550 *
-      t655)));
-  const Real t669 = rear_contacts2bn0_z * t494 - (rear_contacts1bf_y + (t526 * t639 - (t547 * t648 + (t562 *
-      t655 + t565 * t662))));
-  const Real t674 = t57 * t120 + (t60 * t99 - (t58 * t132 - (t59 * t143 + t87 * t401)));
-  const Real t685 = t58 * t120 + (t59 * t99 + (t57 * t132 - (t60 * t143 + (t87 * t435 - t456 * t674))));
-  const Real t696 = t59 * t120 - (t58 * t99 + (t60 * t132 + (t57 * t143 + (t87 * t441 + (t482 * t674 - t497 *
-      t685)))));
-  const Real t704 = t87 * t446 + (Real(1.0) - (t487 * t674 + (t519 * t685 - t529 * t696)));
-  const Real t711 = t491 * t674 - (t87 * t450 - (t523 * t685 - (t544 * t696 + t550 * t704)));
-  const Real t718 = t494 * t674 - (t87 * t453 + (t526 * t685 - (t547 * t696 - (t562 * t704 - t565 * t711))));
-  const Real t726 = front_contactbx3_x * q0r0_x + (front_contacts1bn0_z + (front_contactbx2p_x * q0r0_y +
-      (front_contacts1bn3p_x * t391 + front_contacts1bm_z * t401)));
-  const Real t737 = front_contactbx2p_z * q0r0_x - (front_contacts1bn0_y + (front_contactbx2p_x * q0r0_z -
-      (front_contacts1bn3p_x * t395 - (front_contacts1bm_z * t435 - t456 * t726))));
-  const Real t748 = front_contactbx2p_z * q0r0_y + (front_contacts1bn0_x + (front_contactbx3_x * q0r0_z -
-      (front_contacts1bn3p_x * t398 - (front_contacts1bm_z * t441 + (t482 * t726 - t497 * t737)))));
-  const Real t756 = front_contacts1bm_z * t446 + (rear_contacts1bf_z - (t487 * t726 + (t519 * t737 + t529 *
-      t748)));
-  const Real t764 = front_contacts1bm_z * t450 + (rear_contacts1bf_y - (t491 * t726 + (t523 * t737 + (t544 *
-      t748 - t550 * t756))));
-  const Real t772 = front_contacts1bm_z * t453 + (rear_contacts1bf_x - (t494 * t726 - (t526 * t737 + (t547 *
-      t748 + (t562 * t756 + t565 * t764)))));
-  const Real t780 = front_contactbx3_x * q0r1_x + (front_contacts2bn0_z + (front_contactbx2p_x * q0r1_y -
-      (front_contacts2bn3p_x * t391 - front_contacts2bm_z * t401)));
-  const Real t791 = front_contactbx2p_z * q0r1_x + (front_contacts2bn0_y + (front_contactbx2p_x * q0r1_z -
-      (front_contacts2bn3p_x * t395 + (front_contacts2bm_z * t435 - t456 * t780))));
-  const Real t802 = front_contactbx2p_z * q0r1_y - (front_contacts2bn0_x + (front_contactbx3_x * q0r1_z -
-      (front_contacts2bn3p_x * t398 + (front_contacts2bm_z * t441 + (t482 * t780 - t497 * t791)))));
-  const Real t810 = front_contacts2bm_z * t446 + (rear_contacts2bf_z - (t487 * t780 + (t519 * t791 + t529 *
-      t802)));
-  const Real t818 = front_contacts2bm_z * t450 + (rear_contacts2bf_y - (t491 * t780 + (t523 * t791 + (t544 *
-      t802 - t550 * t810))));
-  const Real t826 = front_contacts2bm_z * t453 + (rear_contacts1bf_y - (t494 * t780 - (t526 * t791 + (t547 *
-      t802 + (t562 * t810 + t565 * t818)))));
-  const Real t839 = t573 * t637;
-  const Real t840 = t564 * t630;
-  const Real t841 = t549 * t623;
-  const Real t842 = t528 * t616;
-  const Real t843 = t496 * t607;
-  const Real t844 = rear_contacts1bn0_z * t455;
-  const Real t855 = t599 * t840 - (t605 * t839 + (t593 * t841 - (t586 * t842 + (t576 * t843 - t149 * t844))));
-  const Real t865 = t573 * t669;
-  const Real t866 = t564 * t662;
-  const Real t867 = t549 * t655;
-  const Real t868 = t528 * t648;
-  const Real t869 = t496 * t639;
-  const Real t870 = rear_contacts2bn0_z * t455;
-  const Real t871 = rear_contacts2bn0_y * Real(8.333333333333334);
-  const Real t882 = t599 * t866 - (t605 * t865 + (t593 * t867 - (t586 * t868 + (t576 * t869 - t149 * t870))));
-  const Real t897 = t573 * t718;
-  const Real t898 = t564 * t711;
-  const Real t899 = t549 * t704;
-  const Real t900 = t528 * t696;
-  const Real t901 = t496 * t685;
-  const Real t902 = t455 * t674;
-  const Real t913 = t599 * t898 - (t605 * t897 - (t593 * t899 + (t586 * t900 + (t576 * t901 - t149 * t902))));
-  const Real t934 = t573 * t772;
-  const Real t935 = t564 * t764;
-  const Real t936 = t549 * t756;
-  const Real t937 = t528 * t748;
-  const Real t938 = t496 * t737;
-  const Real t939 = t455 * t726;
-  const Real t940 = front_contacts1bm_z * model.c30;
-  const Real t951 = t599 * t935 - (t605 * t934 + (t593 * t936 - (t586 * t937 - (t576 * t938 - t149 * t939))));
-  const Real t980 = t573 * t826;
-  const Real t981 = t564 * t818;
-  const Real t982 = t549 * t810;
-  const Real t983 = t528 * t802;
-  const Real t984 = t496 * t791;
-  const Real t985 = t455 * t780;
-  const Real t986 = front_contacts2bm_z * model.c30;
-  const Real t987 = front_contacts2bn3p_x * Real(3.571428571428571);
-  const Real t998 = t599 * t981 - (t605 * t980 + (t593 * t982 - (t586 * t983 - (t576 * t984 - t149 * t985))));
-  const Real t1041 = Real(1.0) / (t605 * (t573 * t605) + (t599 * (t564 * t599) + (t593 * (t549 * t593) - (t586
-      * (t528 * t586) - (t576 * (t496 * t576) + t149 * (t149 * t455)))) + Real(1.8087085566416913e-12)));
-  const Real t1042 = t855 * t1041;
-  const Real t1053 = t882 * t1041;
-  const Real t1061 = t630 * t866 + (t637 * t865 + (t623 * t867 - (t616 * t868 - (t607 * t869 +
-      (rear_contacts1bn0_z * t870 - (rear_contacts1bn0_y * t871 + t855 * t1053))))));
-  const Real t1063 = t913 * t1041;
-  const Real t1070 = t630 * t898 + (t637 * t897 - (t623 * t899 + (t616 * t900 - (t607 * t901 +
-      (rear_contacts1bn0_z * t902 - t855 * t1063)))));
-  const Real t1073 = t951 * t1041;
-  const Real t1080 = t630 * t935 + (t637 * t934 + (t623 * t936 - (t616 * t937 + (t607 * t938 +
-      (rear_contacts1bn0_z * t939 + t855 * t1073)))));
-  const Real t1084 = t998 * t1041;
-  const Real t1091 = t630 * t981 + (t637 * t980 + (t623 * t982 - (t616 * t983 + (t607 * t984 +
-      (rear_contacts1bn0_z * t985 + t855 * t1084)))));
-  const Real t1096 = Real(1.0) / (t637 * t839 + (t630 * t840 + (t623 * t841 - (t616 * t842 - (t607 * t843 +
-      (rear_contacts1bn0_z * t844 + (rear_contacts1bn0_y * rear_contacts1bn0_y * Real(8.333333333333334) -
-      t855 * t1042))))) + Real(7.806783314072456e-11)));
-  const Real t1097 = t1061 * t1096;
-  const Real t1109 = t1070 * t1096;
-  const Real t1117 = t662 * t898 + (t669 * t897 - (t655 * t899 + (t648 * t900 - (t639 * t901 +
-      (rear_contacts2bn0_z * t902 - (t882 * t1063 + t1061 * t1109))))));
-  const Real t1119 = t1080 * t1096;
-  const Real t1127 = t662 * t935 + (t669 * t934 + (t655 * t936 - (t648 * t937 + (t639 * t938 +
-      (rear_contacts2bn0_z * t939 + (t882 * t1073 + t1061 * t1119))))));
-  const Real t1130 = t1091 * t1096;
-  const Real t1138 = t662 * t981 + (t669 * t980 + (t655 * t982 - (t648 * t983 + (t639 * t984 +
-      (rear_contacts2bn0_z * t985 + (t882 * t1084 + t1061 * t1130))))));
-  const Real t1142 = Real(1.0) / (t669 * t865 + (t662 * t866 + (t655 * t867 - (t648 * t868 - (t639 * t869 +
-      (rear_contacts2bn0_z * t870 + (rear_contacts2bn0_y * t871 - (t882 * t1053 + t1061 * t1097)))))) +
+  const Real t472 = t444 * t471;
+  const Real t483 = q0r2_z * h2b_x - (q0r2_y * h2c_z + (p_7_0f_z * t416 + (t403 * t457 - t448 * t472)));
+  const Real t488 = q0r1_z * h2b_x - (q0r1_y * h2c_z + (p_7_0f_y * t416 + (t406 * t457 - t452 * t472)));
+  const Real t493 = q0r0_z * h2b_x + (q0r0_y * h2c_z + (p_7_0f_x * t416 + (t409 * t457 + t456 * t472)));
+  const Real t494 = t448 * t471;
+  const Real t498 = t452 * t471;
+  const Real t501 = t456 * t471;
+  const Real t503 = Real(1.0) / (S1c_zz + (S2c_yy + (p_8_2n_x * t373 - (p_7_2n_x * t416 - (t400 * t457 + t444
+      * t472)))));
+  const Real t504 = t483 * t503;
+  const Real t514 = t406 * t462 - (p_7_0f_y * t421 - (t452 * t494 - t488 * t504));
+  const Real t518 = t409 * t462 - (p_7_0f_x * t421 + (t456 * t494 - t493 * t504));
+  const Real t519 = t488 * t503;
+  const Real t522 = t493 * t503;
+  const Real t524 = Real(1.0) / (p_7_0f_z * t421 - (t403 * t462 + (t448 * t494 - t483 * t504) - Real(94.0)));
+  const Real t525 = t514 * t524;
+  const Real t536 = t409 * t466 - (p_7_0f_x * t425 + (t456 * t498 - (t493 * t519 + t518 * t525)));
+  const Real t537 = t518 * t524;
+  const Real t539 = Real(1.0) / (p_7_0f_y * t425 + (Real(94.0) - (t406 * t466 + (t452 * t498 - (t488 * t519 -
+      t514 * t525)))));
+  const Real t540 = t536 * t539;
+  const Real t548 = Real(1.0) / (p_7_0f_x * t428 + (Real(94.0) - (t409 * t469 + (t456 * t501 - (t493 * t522 -
+      (t518 * t537 + t536 * t540))))));
+  const Real t551 = t57 * t129 - (t60 * t140 + t149 * t431);
+  const Real t561 = t59 * t119 + (t58 * t96 + (t60 * t129 + (t57 * t140 - (t149 * t457 + t472 * t551))));
+  const Real t568 = t149 * t462 + (Real(1.0) - (t494 * t551 + t504 * t561));
+  const Real t574 = t498 * t551 - (t149 * t466 - (t519 * t561 - t525 * t568));
+  const Real t580 = t501 * t551 + (t149 * t469 + (t522 * t561 + (t537 * t568 - t540 * t574)));
+  const Real t582 = model.rear_radius * q0r0_x + rear_contacts1bn0_z * t431;
+  const Real t591 = q0r2_x * rear_contactc_y - (q0r1_x * rear_contactc_z + (t175 + (rear_contacts1bn0_z * t457
+      - t472 * t582)));
+  const Real t597 = t494 * t582 + (rear_contacts1bn0_z * t462 - t504 * t591);
+  const Real t603 = t498 * t582 + (rear_contacts1bn0_z * t466 - (t519 * t591 - t525 * t597));
+  const Real t610 = rear_contacts1bn0_z * t469 - (Real(1.0) + (t501 * t582 - (t522 * t591 + (t537 * t597 +
+      t540 * t603))));
+  const Real t612 = model.rear_radius * q0r1_x + rear_contacts2bn0_z * t431;
+  const Real t621 = q0r0_x * rear_contactc_z - (t162 + (q0r2_x * rear_contactc_x + (rear_contacts2bn0_z * t457
+      - t472 * t612)));
+  const Real t627 = t494 * t612 + (rear_contacts2bn0_z * t462 - t504 * t621);
+  const Real t634 = rear_contacts2bn0_z * t466 - (Real(1.0) - (t498 * t612 - (t519 * t621 - t525 * t627)));
+  const Real t640 = t501 * t612 - (rear_contacts2bn0_z * t469 + (t522 * t621 + (t537 * t627 + t540 * t634)));
+  const Real t645 = t57 * t120 + (t60 * t99 - (t58 * t132 - (t59 * t143 + t87 * t376)));
+  const Real t656 = t58 * t120 + (t59 * t99 + (t57 * t132 - (t60 * t143 + (t87 * t410 - t431 * t645))));
+  const Real t667 = t59 * t120 - (t58 * t99 + (t60 * t132 + (t57 * t143 + (t87 * t416 + (t457 * t645 - t472 *
+      t656)))));
+  const Real t675 = t87 * t421 + (Real(1.0) - (t462 * t645 + (t494 * t656 - t504 * t667)));
+  const Real t682 = t466 * t645 - (t87 * t425 - (t498 * t656 - (t519 * t667 + t525 * t675)));
+  const Real t689 = t469 * t645 - (t87 * t428 + (t501 * t656 - (t522 * t667 - (t537 * t675 - t540 * t682))));
+  const Real t697 = front_contactbx3_x * q0r0_x + (front_contacts1bn0_z + (front_contactbx2p_x * q0r0_y +
+      (front_contacts1bn3p_x * t366 + front_contacts1bm_z * t376)));
+  const Real t708 = front_contactbx2p_z * q0r0_x - (front_contacts1bn0_y + (front_contactbx2p_x * q0r0_z -
+      (front_contacts1bn3p_x * t370 - (front_contacts1bm_z * t410 - t431 * t697))));
+  const Real t719 = front_contactbx2p_z * q0r0_y + (front_contacts1bn0_x + (front_contactbx3_x * q0r0_z -
+      (front_contacts1bn3p_x * t373 - (front_contacts1bm_z * t416 + (t457 * t697 - t472 * t708)))));
+  const Real t726 = t462 * t697 - (front_contacts1bm_z * t421 - (t494 * t708 + t504 * t719));
+  const Real t733 = t466 * t697 - (front_contacts1bm_z * t425 - (t498 * t708 + (t519 * t719 + t525 * t726)));
+  const Real t741 = front_contacts1bm_z * t428 + (Real(1.0) - (t469 * t697 - (t501 * t708 + (t522 * t719 -
+      (t537 * t726 + t540 * t733)))));
+  const Real t749 = front_contactbx3_x * q0r1_x + (front_contacts2bn0_z + (front_contactbx2p_x * q0r1_y -
+      (front_contacts2bn3p_x * t366 - front_contacts2bm_z * t376)));
+  const Real t760 = front_contactbx2p_z * q0r1_x + (front_contacts2bn0_y + (front_contactbx2p_x * q0r1_z -
+      (front_contacts2bn3p_x * t370 + (front_contacts2bm_z * t410 - t431 * t749))));
+  const Real t771 = front_contactbx2p_z * q0r1_y - (front_contacts2bn0_x + (front_contactbx3_x * q0r1_z -
+      (front_contacts2bn3p_x * t373 + (front_contacts2bm_z * t416 + (t457 * t749 - t472 * t760)))));
+  const Real t778 = t462 * t749 - (front_contacts2bm_z * t421 - (t494 * t760 + t504 * t771));
+  const Real t786 = front_contacts2bm_z * t425 + (Real(1.0) - (t466 * t749 + (t498 * t760 + (t519 * t771 +
+      t525 * t778))));
+  const Real t793 = t469 * t749 - (front_contacts2bm_z * t428 + (t501 * t760 + (t522 * t771 - (t537 * t778 -
+      t540 * t786))));
+  const Real t806 = t548 * t610;
+  const Real t807 = t539 * t603;
+  const Real t808 = t524 * t597;
+  const Real t809 = t503 * t591;
+  const Real t810 = t471 * t582;
+  const Real t811 = rear_contacts1bn0_z * t430;
+  const Real t822 = t574 * t807 - (t580 * t806 + (t568 * t808 - (t561 * t809 + (t551 * t810 - t149 * t811))));
+  const Real t832 = t548 * t640;
+  const Real t833 = t539 * t634;
+  const Real t834 = t524 * t627;
+  const Real t835 = t503 * t621;
+  const Real t836 = t471 * t612;
+  const Real t837 = rear_contacts2bn0_z * t430;
+  const Real t838 = rear_contacts2bn0_y * Real(8.333333333333334);
+  const Real t849 = t574 * t833 + (t580 * t832 - (t568 * t834 - (t561 * t835 + (t551 * t836 - t149 * t837))));
+  const Real t864 = t548 * t689;
+  const Real t865 = t539 * t682;
+  const Real t866 = t524 * t675;
+  const Real t867 = t503 * t667;
+  const Real t868 = t471 * t656;
+  const Real t869 = t430 * t645;
+  const Real t880 = t574 * t865 - (t580 * t864 - (t568 * t866 + (t561 * t867 + (t551 * t868 - t149 * t869))));
+  const Real t901 = t548 * t741;
+  const Real t902 = t539 * t733;
+  const Real t903 = t524 * t726;
+  const Real t904 = t503 * t719;
+  const Real t905 = t471 * t708;
+  const Real t906 = t430 * t697;
+  const Real t907 = front_contacts1bm_z * model.c30;
+  const Real t918 = t574 * t902 + (t580 * t901 - (t568 * t903 + (t561 * t904 - (t551 * t905 - t149 * t906))));
+  const Real t947 = t548 * t793;
+  const Real t948 = t539 * t786;
+  const Real t949 = t524 * t778;
+  const Real t950 = t503 * t771;
+  const Real t951 = t471 * t760;
+  const Real t952 = t430 * t749;
+  const Real t953 = front_contacts2bm_z * model.c30;
+  const Real t954 = front_contacts2bn3p_x * Real(3.571428571428571);
+  const Real t965 = t574 * t948 + (t580 * t947 + (t568 * t949 + (t561 * t950 - (t551 * t951 - t149 * t952))));
+  const Real t1008 = Real(1.0) / (t580 * (t548 * t580) + (t574 * (t539 * t574) + (t568 * (t524 * t568) - (t561
+      * (t503 * t561) - (t551 * (t471 * t551) + t149 * (t149 * t430)))) + Real(1.8087085566416913e-12)));
+  const Real t1009 = t822 * t1008;
+  const Real t1020 = t849 * t1008;
+  const Real t1028 = t603 * t833 - (t610 * t832 - (t597 * t834 - (t591 * t835 - (t582 * t836 +
+      (rear_contacts1bn0_z * t837 - (rear_contacts1bn0_y * t838 + t822 * t1020))))));
+  const Real t1030 = t880 * t1008;
+  const Real t1037 = t603 * t865 + (t610 * t864 - (t597 * t866 + (t591 * t867 - (t582 * t868 +
+      (rear_contacts1bn0_z * t869 - t822 * t1030)))));
+  const Real t1040 = t918 * t1008;
+  const Real t1047 = t603 * t902 - (t610 * t901 - (t597 * t903 + (t591 * t904 + (t582 * t905 +
+      (rear_contacts1bn0_z * t906 - t822 * t1040)))));
+  const Real t1051 = t965 * t1008;
+  const Real t1058 = t603 * t948 - (t610 * t947 + (t597 * t949 + (t591 * t950 + (t582 * t951 +
+      (rear_contacts1bn0_z * t952 + t822 * t1051)))));
+  const Real t1063 = Real(1.0) / (t610 * t806 + (t603 * t807 + (t597 * t808 - (t591 * t809 - (t582 * t810 +
+      (rear_contacts1bn0_z * t811 + (rear_contacts1bn0_y * rear_contacts1bn0_y * Real(8.333333333333334) -
+      t822 * t1009))))) + Real(7.806783314072456e-11)));
+  const Real t1064 = t1028 * t1063;
+  const Real t1076 = t1037 * t1063;
+  const Real t1084 = t634 * t865 - (t640 * t864 + (t627 * t866 + (t621 * t867 - (t612 * t868 +
+      (rear_contacts2bn0_z * t869 - (t849 * t1030 + t1028 * t1076))))));
+  const Real t1086 = t1047 * t1063;
+  const Real t1094 = t634 * t902 + (t640 * t901 + (t627 * t903 + (t621 * t904 + (t612 * t905 +
+      (rear_contacts2bn0_z * t906 - (t849 * t1040 + t1028 * t1086))))));
+  const Real t1097 = t1058 * t1063;
+  const Real t1105 = t634 * t948 + (t640 * t947 - (t627 * t949 + (t621 * t950 + (t612 * t951 +
+      (rear_contacts2bn0_z * t952 + (t849 * t1051 + t1028 * t1097))))));
+  const Real t1109 = Real(1.0) / (t640 * t832 + (t634 * t833 + (t627 * t834 - (t621 * t835 - (t612 * t836 +
+      (rear_contacts2bn0_z * t837 + (rear_contacts2bn0_y * t838 - (t849 * t1020 + t1028 * t1064)))))) +
       Real(8.816994788327498e-12)));
-  const Real t1143 = t1117 * t1142;
-  const Real t1156 = t1127 * t1142;
-  const Real t1166 = t711 * t935 + (t718 * t934 - (t704 * t936 + (t696 * t937 + (t685 * t938 + (t674 * t939 -
-      (t87 * t940 - (t913 * t1073 + (t1070 * t1119 + t1117 * t1156))))))));
-  const Real t1168 = t1138 * t1142;
-  const Real t1178 = t711 * t981 + (t718 * t980 - (t704 * t982 + (t696 * t983 + (t685 * t984 + (t674 * t985 -
-      (t87 * t986 - (t913 * t1084 + (t1070 * t1130 + t1117 * t1168))))))));
-  const Real t1181 = Real(1.0) / (t718 * t897 + (t711 * t898 + (t704 * t899 - (t696 * t900 - (t685 * t901 +
-      (t674 * t902 - (model.c30 * (t87 * t87) + (t913 * t1063 + (t1070 * t1109 + t1117 * t1143))))))) +
+  const Real t1110 = t1084 * t1109;
+  const Real t1123 = t1094 * t1109;
+  const Real t1133 = t682 * t902 - (t689 * t901 + (t675 * t903 - (t667 * t904 + (t656 * t905 + (t645 * t906 -
+      (t87 * t907 + (t880 * t1040 + (t1037 * t1086 + t1084 * t1123))))))));
+  const Real t1135 = t1105 * t1109;
+  const Real t1145 = t682 * t948 - (t689 * t947 - (t675 * t949 - (t667 * t950 + (t656 * t951 + (t645 * t952 -
+      (t87 * t953 - (t880 * t1051 + (t1037 * t1097 + t1084 * t1135))))))));
+  const Real t1148 = Real(1.0) / (t689 * t864 + (t682 * t865 + (t675 * t866 - (t667 * t867 - (t656 * t868 +
+      (t645 * t869 - (model.c30 * (t87 * t87) + (t880 * t1030 + (t1037 * t1076 + t1084 * t1110))))))) +
       Real(3.988016169236579e-12)));
-  const Real t1182 = t1166 * t1181;
-  const Real t1197 = t1178 * t1181;
-  const Real t1209 = t764 * t981 + (t772 * t980 + (t756 * t982 - (t748 * t983 - (t737 * t984 + (t726 * t985 -
-      (front_contacts1bm_z * t986 + (front_contacts1bn3p_x * t987 + (t951 * t1084 + (t1080 * t1130 + (t1127 *
-      t1168 + t1166 * t1197))))))))));
-  const Real t1211 = Real(1.0) / (t772 * t934 + (t764 * t935 + (t756 * t936 - (t748 * t937 - (t737 * t938 +
-      (t726 * t939 - (front_contacts1bm_z * t940 - (Real(3.571428571428571) * (front_contacts1bn3p_x *
-      front_contacts1bn3p_x) - (t951 * t1073 + (t1080 * t1119 + (t1127 * t1156 + t1166 * t1182))))))))) +
+  const Real t1149 = t1133 * t1148;
+  const Real t1164 = t1145 * t1148;
+  const Real t1176 = t733 * t948 + (t741 * t947 - (t726 * t949 - (t719 * t950 - (t708 * t951 + (t697 * t952 -
+      (front_contacts1bm_z * t953 + (front_contacts1bn3p_x * t954 - (t918 * t1051 + (t1047 * t1097 + (t1094 *
+      t1135 + t1133 * t1164))))))))));
+  const Real t1178 = Real(1.0) / (t741 * t901 + (t733 * t902 + (t726 * t903 - (t719 * t904 - (t708 * t905 +
+      (t697 * t906 - (front_contacts1bm_z * t907 - (Real(3.571428571428571) * (front_contacts1bn3p_x *
+      front_contacts1bn3p_x) - (t918 * t1040 + (t1047 * t1086 + (t1094 * t1123 + t1133 * t1149))))))))) +
       Real(4.6476630875276904e-11)));
-  const Real t1212 = t1209 * t1211;
-  const Real t1228 = Real(1.0) / (t826 * t980 + (t818 * t981 + (t810 * t982 - (t802 * t983 - (t791 * t984 +
-      (t780 * t985 - (front_contacts2bm_z * t986 - (front_contacts2bn3p_x * t987 - (t998 * t1084 + (t1091 *
-      t1130 + (t1138 * t1168 + (t1178 * t1197 + t1209 * t1212)))))))))) + Real(2.7054786900152528e-11)));
-  const Real t1229 = g_rear_contact * t1042;
-  const Real t1235 = g_rear_contact * t1053 - t1097 * t1229;
-  const Real t1246 = q0r2_x * front_contactbx2p_x + (state.y[2] + (q0r2_y * front_contactbx3_x + (q0r2_z *
-      front_contactbx2p_z + (front_contactup * model.front_radius - (g_rear_contact * t1063 - (t1109 * t1229 +
-      t1143 * t1235))))));
-  const Real t1252 = t1119 * t1229 - (g_rear_contact * t1073 - (t1156 * t1235 - t1182 * t1246));
-  const Real t1264 = t1228 * (t1130 * t1229 - (g_rear_contact * t1084 - (t1168 * t1235 - (t1197 * t1246 +
-      t1212 * t1252))));
-  const Real t1266 = t1211 * t1252 - t1212 * t1264;
-  const Real t1270 = t1182 * t1266 - (t1181 * t1246 - t1197 * t1264);
-  const Real t1276 = t1143 * t1270 - (t1142 * t1235 + (t1156 * t1266 + t1168 * t1264));
-  const Real t1284 = t1097 * t1276 + (t1096 * t1229 - (t1109 * t1270 - (t1119 * t1266 + t1130 * t1264)));
-  const Real t1294 = t1042 * t1284 + (g_rear_contact * t1041 - (t1053 * t1276 - (t1063 * t1270 - (t1073 *
-      t1266 + t1084 * t1264))));
-  const Real t1372 = t573 * (t637 * t1284 + (t605 * t1294 - (t669 * t1276 - (t718 * t1270 - (t772 * t1266 +
-      t826 * t1264)))));
-  const Real t1375 = t564 * (t630 * t1284 - (t599 * t1294 + (t662 * t1276 - (t711 * t1270 - (t764 * t1266 +
-      t818 * t1264))))) + t565 * t1372;
-  const Real t1380 = t562 * t1372 + (t549 * (t623 * t1284 + (t593 * t1294 - (t655 * t1276 + (t704 * t1270 +
-      (t756 * t1266 + t810 * t1264))))) + t550 * t1375);
-  const Real t1387 = t547 * t1372 - (t528 * (t616 * t1284 + (t586 * t1294 - (t648 * t1276 - (t696 * t1270 -
-      (t748 * t1266 + t802 * t1264))))) + (t544 * t1375 + t529 * t1380));
-  const Real t1396 = t526 * t1372 - (t496 * (t607 * t1284 - (t576 * t1294 + (t639 * t1276 - (t685 * t1270 +
-      (t737 * t1266 + t791 * t1264))))) + (t523 * t1375 + (t519 * t1380 + t497 * t1387)));
-  const Real t1407 = t494 * t1372 + (t455 * (rear_contacts1bn0_z * t1284 + (t149 * t1294 -
-      (rear_contacts2bn0_z * t1276 - (t674 * t1270 + (t726 * t1266 + t780 * t1264))))) + (t491 * t1375 + (t487
-      * t1380 - (t482 * t1387 + t456 * t1396))));
-  const Real t1409 = t1396 - Real(8.333333333333334) * (rear_contacts1bn0_y * t1284 + rear_contacts2bn0_y *
-      t1276);
-  const Real t1410 = model.c30 * (front_contacts1bm_z * t1266 + (t87 * t1270 + front_contacts2bm_z * t1264));
-  const Real t1411 = t453 * t1372;
-  const Real t1412 = t450 * t1375;
-  const Real t1413 = t446 * t1380;
-  const Real t1414 = t441 * t1387;
-  const Real t1415 = t435 * t1396;
-  const Real t1416 = t401 * t1407;
-  const Real t1422 = t1411 + (t1410 + (t1412 + (t1413 + (t1414 - (t1415 + t1416)))));
-  const Real t1429 = t398 * t1387 + (Real(3.571428571428571) * (front_contacts1bn3p_x * t1266 -
-      front_contacts2bn3p_x * t1264) - (t395 * t1396 - t391 * t1407));
-  const Real t1440 = Real(0.5) * t1387;
-  const Real t1441 = Real(0.5) * t1396;
-  const Real t1442 = Real(0.5) * t1407;
-  const Real t1449 = state.y[3] * t1440 - (state.y[4] + (state.y[5] * t1442 + state.y[6] * t1441));
-  const Real t1456 = state.y[3] * t1441 - (state.y[5] - (state.y[6] * t1440 + state.y[4] * t1442));
-  const Real t1460 = state.y[4] * t1440 + (state.y[3] + (state.y[5] * t1441 - state.y[6] * t1442));
-  const Real t1466 = state.y[3] * t1442 + (state.y[6] - (state.y[4] * t1441 - state.y[5] * t1440));
-  const Real t1475 = Real(1.0) / detail::square_root(t1449 * t1449 + (t1460 * t1460 + (t1456 * t1456 + t1466 *
-      t1466)));
-  const Real t1476 = t1460 * t1475;
-  const Real t1477 = t1449 * t1475;
-  const Real t1478 = t1456 * t1475;
-  const Real t1479 = t1466 * t1475;
-  const Real q0d1_2 = Real(2.0) * t1477;
-  const Real q0d2_2 = Real(2.0) * t1478;
-  const Real q0d3_2 = Real(2.0) * t1479;
-  const Real q011_2 = t1477 * q0d1_2;
-  const Real q022_2 = t1478 * q0d2_2;
-  const Real q023_2 = t1478 * q0d3_2;
-  const Real q001_2 = t1476 * q0d1_2;
+  const Real t1179 = t1176 * t1178;
+  const Real t1195 = Real(1.0) / (t793 * t947 + (t786 * t948 + (t778 * t949 - (t771 * t950 - (t760 * t951 +
+      (t749 * t952 - (front_contacts2bm_z * t953 - (front_contacts2bn3p_x * t954 - (t965 * t1051 + (t1058 *
+      t1097 + (t1105 * t1135 + (t1145 * t1164 + t1176 * t1179)))))))))) + Real(2.7054786900152528e-11)));
+  const Real t1196 = g_rear_contact * t1009;
+  const Real t1202 = g_rear_contact * t1020 - t1064 * t1196;
+  const Real t1213 = q0r2_x * front_contactbx2p_x + (state.y[2] + (q0r2_y * front_contactbx3_x + (q0r2_z *
+      front_contactbx2p_z + (front_contactup * model.front_radius - (g_rear_contact * t1030 - (t1076 * t1196 +
+      t1110 * t1202))))));
+  const Real t1219 = t1086 * t1196 - (g_rear_contact * t1040 - (t1123 * t1202 - t1149 * t1213));
+  const Real t1231 = t1195 * (t1097 * t1196 - (g_rear_contact * t1051 - (t1135 * t1202 - (t1164 * t1213 +
+      t1179 * t1219))));
+  const Real t1233 = t1178 * t1219 - t1179 * t1231;
+  const Real t1237 = t1149 * t1233 - (t1148 * t1213 - t1164 * t1231);
+  const Real t1243 = t1110 * t1237 - (t1109 * t1202 + (t1123 * t1233 + t1135 * t1231));
+  const Real t1251 = t1064 * t1243 + (t1063 * t1196 - (t1076 * t1237 - (t1086 * t1233 + t1097 * t1231)));
+  const Real t1261 = t1009 * t1251 + (g_rear_contact * t1008 - (t1020 * t1243 - (t1030 * t1237 - (t1040 *
+      t1233 + t1051 * t1231))));
+  const Real t1339 = t548 * (t610 * t1251 + (t580 * t1261 + (t640 * t1243 + (t689 * t1237 + (t741 * t1233 +
+      t793 * t1231)))));
+  const Real t1342 = t539 * (t603 * t1251 - (t574 * t1261 + (t634 * t1243 - (t682 * t1237 - (t733 * t1233 +
+      t786 * t1231))))) + t540 * t1339;
+  const Real t1347 = t537 * t1339 + (t524 * (t597 * t1251 + (t568 * t1261 - (t627 * t1243 + (t675 * t1237 +
+      (t726 * t1233 - t778 * t1231))))) + t525 * t1342);
+  const Real t1354 = t522 * t1339 - (t503 * (t591 * t1251 + (t561 * t1261 - (t621 * t1243 - (t667 * t1237 +
+      (t719 * t1233 - t771 * t1231))))) + (t519 * t1342 + t504 * t1347));
+  const Real t1363 = t501 * t1339 - (t471 * (t582 * t1251 - (t551 * t1261 + (t612 * t1243 - (t656 * t1237 -
+      (t708 * t1233 - t760 * t1231))))) + (t498 * t1342 + (t494 * t1347 + t472 * t1354)));
+  const Real t1374 = t469 * t1339 + (t430 * (rear_contacts1bn0_z * t1251 + (t149 * t1261 -
+      (rear_contacts2bn0_z * t1243 - (t645 * t1237 - (t697 * t1233 - t749 * t1231))))) + (t466 * t1342 + (t462
+      * t1347 - (t457 * t1354 + t431 * t1363))));
+  const Real t1376 = t1363 - Real(8.333333333333334) * (rear_contacts1bn0_y * t1251 + rear_contacts2bn0_y *
+      t1243);
+  const Real t1377 = model.c30 * (front_contacts1bm_z * t1233 - (t87 * t1237 + front_contacts2bm_z * t1231));
+  const Real t1378 = t428 * t1339;
+  const Real t1379 = t425 * t1342;
+  const Real t1380 = t421 * t1347;
+  const Real t1381 = t416 * t1354;
+  const Real t1382 = t410 * t1363;
+  const Real t1383 = t376 * t1374;
+  const Real t1389 = t1378 - (t1377 - (t1379 + (t1380 + (t1381 - (t1382 + t1383)))));
+  const Real t1396 = t373 * t1354 - (Real(3.571428571428571) * (front_contacts1bn3p_x * t1233 +
+      front_contacts2bn3p_x * t1231) + (t370 * t1363 - t366 * t1374));
+  const Real t1407 = Real(0.5) * t1354;
+  const Real t1408 = Real(0.5) * t1363;
+  const Real t1409 = Real(0.5) * t1374;
+  const Real t1416 = state.y[3] * t1407 - (state.y[4] + (state.y[5] * t1409 + state.y[6] * t1408));
+  const Real t1423 = state.y[3] * t1408 - (state.y[5] - (state.y[6] * t1407 + state.y[4] * t1409));
+  const Real t1427 = state.y[4] * t1407 + (state.y[3] + (state.y[5] * t1408 - state.y[6] * t1409));
+  const Real t1433 = state.y[3] * t1409 + (state.y[6] - (state.y[4] * t1408 - state.y[5] * t1407));
+  const Real t1442 = Real(1.0) / detail::square_root(t1416 * t1416 + (t1427 * t1427 + (t1423 * t1423 + t1433 *
+      t1433)));
+  const Real t1443 = t1427 * t1442;
+  const Real t1444 = t1416 * t1442;
+  const Real t1445 = t1423 * t1442;
+  const Real t1446 = t1433 * t1442;
+  const Real q0d1_2 = Real(2.0) * t1444;
+  const Real q0d2_2 = Real(2.0) * t1445;
+  const Real q0d3_2 = Real(2.0) * t1446;
+  const Real q011_2 = t1444 * q0d1_2;
+  const Real q022_2 = t1445 * q0d2_2;
+  const Real q023_2 = t1445 * q0d3_2;
+  const Real q001_2 = t1443 * q0d1_2;
   const Real q0r2_y_2 = q023_2 + q001_2;
-  const Real t1488 = Real(1.0) - q011_2;
-  const Real q0r2_z_2 = q022_2 - t1488;
-  const Real t1491 = Real(1.0) - q0r2_y_2 * q0r2_y_2;
-  const Real rear_contactup_2 = detail::square_root(t1491);
-  const Real q013_2 = t1477 * q0d3_2;
-  const Real q002_2 = t1476 * q0d2_2;
+  const Real t1455 = Real(1.0) - q011_2;
+  const Real q0r2_z_2 = q022_2 - t1455;
+  const Real t1458 = Real(1.0) - q0r2_y_2 * q0r2_y_2;
+  const Real rear_contactup_2 = detail::square_root(t1458);
+  const Real q013_2 = t1444 * q0d3_2;
+  const Real q002_2 = t1443 * q0d2_2;
   const Real q0r2_x_2 = q013_2 - q002_2;
-  Real t1496, t1497;
-  detail::sine_cosine(t1410, t1496, t1497);
-  Real t1498, t1499;
-  detail::sine_cosine(t1411, t1498, t1499);
-  const Real t1502 = t1497 * t1498 + t1496 * t1499;
-  const Real t1505 = t1496 * t1498 - t1497 * t1499;
-  Real t1506, t1507;
-  detail::sine_cosine(t1412, t1506, t1507);
-  const Real t1510 = t1505 * t1506 - t1502 * t1507;
-  const Real t1513 = t1502 * t1506 + t1505 * t1507;
-  Real t1514, t1515;
-  detail::sine_cosine(t1413, t1514, t1515);
-  const Real t1518 = t1513 * t1514 + t1510 * t1515;
-  const Real t1521 = t1510 * t1514 - t1513 * t1515;
-  Real t1522, t1523;
-  detail::sine_cosine(t1414, t1522, t1523);
-  const Real t1526 = t1521 * t1522 - t1518 * t1523;
-  const Real t1529 = t1518 * t1522 + t1521 * t1523;
-  Real t1530, t1531;
-  detail::sine_cosine(t1415, t1530, t1531);
-  const Real t1534 = t1529 * t1530 - t1526 * t1531;
-  const Real t1537 = t1526 * t1530 + t1529 * t1531;
-  Real t1538, t1539;
-  detail::sine_cosine(t1416, t1538, t1539);
-  const Real t1542 = t1537 * t1538 + t1534 * t1539;
-  const Real t1545 = t1534 * t1538 - t1537 * t1539;
-  const Real s2_2 = c2 * t1542 - s2 * t1545;
-  const Real c2_2 = s2 * t1542 + c2 * t1545;
+  Real t1463, t1464;
+  detail::sine_cosine(t1377, t1463, t1464);
+  Real t1465, t1466;
+  detail::sine_cosine(t1378, t1465, t1466);
+  const Real t1469 = t1464 * t1465 - t1463 * t1466;
+  const Real t1472 = t1463 * t1465 + t1464 * t1466;
+  Real t1473, t1474;
+  detail::sine_cosine(t1379, t1473, t1474);
+  const Real t1477 = t1472 * t1473 + t1469 * t1474;
+  const Real t1480 = t1469 * t1473 - t1472 * t1474;
+  Real t1481, t1482;
+  detail::sine_cosine(t1380, t1481, t1482);
+  const Real t1485 = t1480 * t1481 - t1477 * t1482;
+  const Real t1488 = t1477 * t1481 + t1480 * t1482;
+  Real t1489, t1490;
+  detail::sine_cosine(t1381, t1489, t1490);
+  const Real t1493 = t1488 * t1489 + t1485 * t1490;
+  const Real t1496 = t1485 * t1489 - t1488 * t1490;
+  Real t1497, t1498;
+  detail::sine_cosine(t1382, t1497, t1498);
+  const Real t1501 = t1496 * t1497 + t1493 * t1498;
+  const Real t1504 = t1493 * t1497 - t1496 * t1498;
+  Real t1505, t1506;
+  detail::sine_cosine(t1383, t1505, t1506);
+  const Real t1509 = t1504 * t1505 - t1501 * t1506;
+  const Real t1512 = t1501 * t1505 + t1504 * t1506;
+  const Real s2_2 = c2 * t1509 + s2 * t1512;
+  const Real c2_2 = s2 * t1509 - c2 * t1512;
   const Real front_contactbx3_x_2 = model.r_front_y * s2_2;
   const Real front_contactbx3_y_2 = model.r_front_y * c2_2;
-  const Real front_contactbx2p_x_2 = model.c25 - Real(0.9510565162951535) * front_contactbx3_y_2;
-  const Real front_contactbx2p_z_2 = model.c26 - Real(0.3090169943749474) * front_contactbx3_y_2;
+  const Real front_contactbx2p_x_2 = model.c25 + Real(0.9510565162951535) * front_contactbx3_y_2;
+  const Real front_contactbx2p_z_2 = model.c26 + Real(0.3090169943749474) * front_contactbx3_y_2;
   const Real front_contactbd2p_x_2 = Real(0.9510565162951535) * s2_2;
   const Real front_contactbd2p_z_2 = Real(0.3090169943749474) * s2_2;
   const Real front_contactbd0p_z_2 = q0r2_y_2 * c2_2 + (q0r2_x_2 * front_contactbd2p_x_2 - q0r2_z_2 *
       front_contactbd2p_z_2);
-  const Real t1566 = Real(1.0) - front_contactbd0p_z_2 * front_contactbd0p_z_2;
-  const Real front_contactup_2 = detail::square_root(t1566);
-  const Real t1568 = Real(0.5) * t1476;
-  const Real t1569 = Real(0.5) * t1477;
-  const Real t1570 = Real(0.5) * t1478;
-  const Real t1571 = Real(0.5) * t1479;
-  const Real t1575 = model.c31 * ((front_contactbd0p_z_2 + front_contactbd0p_z_2) / front_contactup_2);
-  const Real t1584 = front_contactbx2p_z_2 + front_contactbd2p_z_2 * t1575;
-  const Real t1585 = front_contactbx3_x_2 + c2_2 * t1575;
-  const Real t1586 = front_contactbx2p_x_2 + front_contactbd2p_x_2 * t1575;
-  const Real t1603 = model.c32 * ((q0r2_y_2 + q0r2_y_2) / rear_contactup_2);
-  const Real t1605 = q0d1_2 * t1603;
-  const Real t1608 = q0d2_2 * t1586 - q0d1_2 * t1585;
-  const Real t1627 = q0d2_2 * t1603;
-  const Real t1628 = Real(2.0) * (t1477 * t1586 + t1478 * t1585);
-  const Real t1635 = model.rear_radius * q0d2_2 - (q0d3_2 * t1603 - model.mr_z * t1478);
-  const Real t1638 = q0d2_2 * t1584 - (q0d3_2 * t1585 - Real(2.0) * (t1476 * t1586 + t1478 * t1584));
-  const Real t1646 = model.rear_radius * q0d1_2 - Real(2.0) * (t1476 * t1603 - model.rear_radius * t1477);
-  const Real t1649 = q0d1_2 * t1584 - (q0d3_2 * t1586 + Real(2.0) * (t1476 * t1585 - t1477 * t1584));
-  const Real t1669 = t1569 * t1638 - t1570 * t1649;
-  const Real q033_2 = t1479 * q0d3_2;
-  const Real q012_2 = t1477 * q0d2_2;
-  const Real q003_2 = t1476 * q0d3_2;
+  const Real t1533 = Real(1.0) - front_contactbd0p_z_2 * front_contactbd0p_z_2;
+  const Real front_contactup_2 = detail::square_root(t1533);
+  const Real t1535 = Real(0.5) * t1443;
+  const Real t1536 = Real(0.5) * t1444;
+  const Real t1537 = Real(0.5) * t1445;
+  const Real t1538 = Real(0.5) * t1446;
+  const Real t1542 = model.c31 * ((front_contactbd0p_z_2 + front_contactbd0p_z_2) / front_contactup_2);
+  const Real t1551 = front_contactbx2p_z_2 + front_contactbd2p_z_2 * t1542;
+  const Real t1552 = front_contactbx3_x_2 - c2_2 * t1542;
+  const Real t1553 = front_contactbx2p_x_2 + front_contactbd2p_x_2 * t1542;
+  const Real t1570 = model.c32 * ((q0r2_y_2 + q0r2_y_2) / rear_contactup_2);
+  const Real t1572 = q0d1_2 * t1570;
+  const Real t1575 = q0d2_2 * t1553 + q0d1_2 * t1552;
+  const Real t1594 = q0d2_2 * t1570;
+  const Real t1595 = Real(2.0) * (t1444 * t1553 - t1445 * t1552);
+  const Real t1602 = model.rear_radius * q0d2_2 - (q0d3_2 * t1570 - model.mr_z * t1445);
+  const Real t1605 = q0d2_2 * t1551 + (q0d3_2 * t1552 + Real(2.0) * (t1443 * t1553 + t1445 * t1551));
+  const Real t1613 = model.rear_radius * q0d1_2 - Real(2.0) * (t1443 * t1570 - model.rear_radius * t1444);
+  const Real t1616 = q0d1_2 * t1551 - (q0d3_2 * t1553 - Real(2.0) * (t1443 * t1552 + t1444 * t1551));
+  const Real t1636 = t1536 * t1605 - t1537 * t1616;
+  const Real q033_2 = t1446 * q0d3_2;
+  const Real q012_2 = t1444 * q0d2_2;
+  const Real q003_2 = t1443 * q0d3_2;
   const Real q0r0_x_2 = q033_2 - (Real(1.0) - q022_2);
   const Real q0r0_y_2 = q012_2 - q003_2;
-  const Real q0r0_z_2 = q013_2 + q002_2;
   const Real q0r1_x_2 = q012_2 + q003_2;
-  const Real q0r1_y_2 = t1488 - q033_2;
+  const Real q0r1_y_2 = t1455 - q033_2;
   const Real q0r1_z_2 = q023_2 - q001_2;
-  const Real t1681 = model.rear_radius * q0r1_y_2;
-  const Real rear_contactc_y_2 = q0r2_y_2 * t1681 / rear_contactup_2;
-  const Real rear_contactc_z_2 = model.rear_radius * (t1491 / rear_contactup_2);
+  const Real t1647 = model.rear_radius * q0r1_y_2;
+  const Real rear_contactc_y_2 = q0r2_y_2 * t1647 / rear_contactup_2;
+  const Real rear_contactc_z_2 = model.rear_radius * (t1458 / rear_contactup_2);
   const Real rear_contacts1bn0_y_2 = q0r1_y_2 * rear_contactc_z_2 + q0r2_y_2 * rear_contactc_y_2;
   const Real rear_contacts1bn0_z_2 = q0r1_z_2 * rear_contactc_z_2 - q0r2_z_2 * rear_contactc_y_2;
-  const Real t1694 = model.rear_radius * q0r0_y_2;
-  const Real rear_contacts1bm_x = q0r2_x_2 * rear_contactc_y_2 + (q0r1_x_2 * rear_contactc_z_2 + t1694);
+  const Real t1660 = model.rear_radius * q0r0_y_2;
+  const Real rear_contacts1bm_x = q0r2_x_2 * rear_contactc_y_2 + (q0r1_x_2 * rear_contactc_z_2 + t1660);
   const Real rear_contacts1bm_y = rear_contacts1bn0_y_2 + model.rear_radius * q0r0_x_2;
-  const Real rear_contacts1bf_x_2 = q0r0_y_2 * q0r0_y_2 + (q0r0_x_2 * q0r0_x_2 + q0r0_z_2 * q0r0_z_2);
-  const Real rear_contacts1bf_y_2 = q0r0_y_2 * q0r1_y_2 - (q0r0_x_2 * q0r1_x_2 - q0r0_z_2 * q0r1_z_2);
-  const Real rear_contacts1bf_z_2 = q0r2_y_2 * q0r0_y_2 - (q0r2_x_2 * q0r0_x_2 + q0r2_z_2 * q0r0_z_2);
-  const Real rear_contactc_x_2 = q0r2_y_2 * t1694 / rear_contactup_2;
+  const Real q0r0_z_2 = q013_2 + q002_2;
+  const Real rear_contactc_x_2 = q0r2_y_2 * t1660 / rear_contactup_2;
   const Real rear_contacts2bn0_y_2 = q0r0_y_2 * rear_contactc_z_2 + q0r2_y_2 * rear_contactc_x_2;
-  const Real rear_contacts2bn0_z_2 = q0r0_z_2 * rear_contactc_z_2 - q0r2_z_2 * rear_contactc_x_2;
-  const Real rear_contacts2bm_x = q0r0_x_2 * rear_contactc_z_2 + (t1681 - q0r2_x_2 * rear_contactc_x_2);
+  const Real rear_contacts2bn0_z_2 = rear_contactc_z_2 * q0r0_z_2 - q0r2_z_2 * rear_contactc_x_2;
+  const Real rear_contacts2bm_x = q0r0_x_2 * rear_contactc_z_2 + (t1647 - q0r2_x_2 * rear_contactc_x_2);
   const Real rear_contacts2bm_y = rear_contacts2bn0_y_2 + model.rear_radius * q0r1_x_2;
-  const Real rear_contacts2bf_y_2 = q0r1_y_2 * q0r1_y_2 + (q0r1_x_2 * q0r1_x_2 + q0r1_z_2 * q0r1_z_2);
-  const Real rear_contacts2bf_z_2 = q0r2_y_2 * q0r1_y_2 + (q0r2_x_2 * q0r1_x_2 - q0r2_z_2 * q0r1_z_2);
   const Real front_contactbd0p_y_2 = c2_2 * q0r1_y_2 + (front_contactbd2p_x_2 * q0r1_x_2 +
       front_contactbd2p_z_2 * q0r1_z_2);
   const Real front_contactc_y_2 = model.front_radius * (front_contactbd0p_z_2 * front_contactbd0p_y_2 /
       front_contactup_2);
-  const Real front_contactc_z_2 = model.front_radius * (t1566 / front_contactup_2);
+  const Real front_contactc_z_2 = model.front_radius * (t1533 / front_contactup_2);
   const Real front_contacts1bf2_y_2 = Real(0.3090169943749474) * q0r0_z_2 - Real(0.9510565162951535) *
       q0r0_x_2;
   const Real front_contacts1bn0_x_2 = q0r1_x_2 * front_contactc_z_2 + q0r2_x_2 * front_contactc_y_2;
@@ -1964,17 +1930,18 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
       Real(0.9510565162951535) * front_contacts1bn0_x_2;
   const Real front_contacts1bn3p_x_2 = c2_2 * front_contacts1bn0_y_2 + s2_2 * front_contacts1bn2_y_2;
   const Real front_contacts1bm_z_2 = Real(0.9510565162951535) * front_contacts1bn0_z_2 -
-      (Real(0.3090169943749474) * front_contacts1bn0_x_2 - (front_contactbx3_y_2 * q0r0_y_2 +
+      (Real(0.3090169943749474) * front_contacts1bn0_x_2 + (front_contactbx3_y_2 * q0r0_y_2 +
       front_contactbx3_x_2 * front_contacts1bf2_y_2));
-  const Real front_contacts1bm_x = front_contactbx2p_z_2 * q0r0_y_2 + (front_contacts1bn0_x_2 -
+  const Real front_contacts1bm_x = front_contactbx2p_z_2 * q0r0_y_2 + (front_contacts1bn0_x_2 +
       front_contactbx3_x_2 * q0r0_z_2);
   const Real front_contacts1bm_y = front_contactbx2p_z_2 * q0r0_x_2 + (front_contacts1bn0_y_2 +
       front_contactbx2p_x_2 * q0r0_z_2);
-  const Real front_contacts1bm_z_3 = front_contactbx3_x_2 * q0r0_x_2 - (front_contacts1bn0_z_2 -
+  const Real front_contacts1bm_z_3 = front_contactbx3_x_2 * q0r0_x_2 + (front_contacts1bn0_z_2 -
       front_contactbx2p_x_2 * q0r0_y_2);
   const Real front_contactbd0p_x_2 = c2_2 * q0r0_y_2 + s2_2 * front_contacts1bf2_y_2;
   const Real front_contactc_x_2 = model.front_radius * (front_contactbd0p_z_2 * front_contactbd0p_x_2 /
       front_contactup_2);
+  const Real front_contacts2bf2_y = Real(0.3090169943749474) * q0r1_z_2 + Real(0.9510565162951535) * q0r1_x_2;
   const Real front_contacts2bn0_x_2 = q0r0_x_2 * front_contactc_z_2 - q0r2_x_2 * front_contactc_x_2;
   const Real front_contacts2bn0_y_2 = q0r0_y_2 * front_contactc_z_2 + q0r2_y_2 * front_contactc_x_2;
   const Real front_contacts2bn0_z_2 = q0r0_z_2 * front_contactc_z_2 - q0r2_z_2 * front_contactc_x_2;
@@ -1982,84 +1949,81 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
       Real(0.9510565162951535) * front_contacts2bn0_x_2;
   const Real front_contacts2bn3p_x_2 = c2_2 * front_contacts2bn0_y_2 + s2_2 * front_contacts2bn2_y_2;
   const Real front_contacts2bm_z_2 = Real(0.9510565162951535) * front_contacts2bn0_z_2 +
-      (Real(0.3090169943749474) * front_contacts2bn0_x_2 - model.r_front_y * front_contactbd0p_y_2);
-  const Real front_contacts2bm_x = front_contactbx2p_z_2 * q0r1_y_2 + (front_contacts2bn0_x_2 -
+      (Real(0.3090169943749474) * front_contacts2bn0_x_2 + (front_contactbx3_y_2 * q0r1_y_2 +
+      front_contactbx3_x_2 * front_contacts2bf2_y));
+  const Real front_contacts2bm_x = front_contactbx2p_z_2 * q0r1_y_2 + (front_contacts2bn0_x_2 +
       front_contactbx3_x_2 * q0r1_z_2);
   const Real front_contacts2bm_y = front_contactbx2p_z_2 * q0r1_x_2 + (front_contacts2bn0_y_2 -
       front_contactbx2p_x_2 * q0r1_z_2);
-  const Real front_contacts2bm_z_3 = front_contactbx3_x_2 * q0r1_x_2 - (front_contacts2bn0_z_2 +
+  const Real front_contacts2bm_z_3 = front_contactbx3_x_2 * q0r1_x_2 + (front_contacts2bn0_z_2 +
       front_contactbx2p_x_2 * q0r1_y_2);
-  const Real t1834 = (t1570 * t1627 + (t1569 * t1605 + (t1571 * t1635 + t1568 * t1646))) * state.z[3] -
-      (state.z[2] - ((t1568 * t1635 - t1571 * t1646) * state.z[4] + (t1568 * t1627 - (t1571 * t1605 - (t1569 *
-      t1635 - t1570 * t1646))) * state.z[5]));
-  const Real t1842 = rear_contacts1bf_y_2 * state.z[1] + (rear_contacts1bf_x_2 * state.z[0] -
-      rear_contacts1bf_z_2 * state.z[2]);
-  const Real t1851 = rear_contacts2bf_y_2 * state.z[1] + (rear_contacts1bf_y_2 * state.z[0] -
-      rear_contacts2bf_z_2 * state.z[2]);
-  const Real t1875 = rear_contacts1bm_x * state.z[3] + (t1842 + (rear_contacts1bm_y * state.z[4] -
-      (rear_contacts1bn0_z_2 * state.z[5] - (rear_contacts1bn0_y_2 * state.z[6] + t1042 * t1834))));
-  const Real t1886 = rear_contacts2bm_x * state.z[3] + (t1851 - (rear_contacts2bm_y * state.z[4] -
-      (rear_contacts2bn0_z_2 * state.z[5] - (rear_contacts2bn0_y_2 * state.z[6] + (t1053 * t1834 - t1097 *
-      t1875)))));
-  const Real t1897 = (t1570 * t1628 - (t1569 * t1608 - (t1571 * t1638 + t1568 * t1649))) * state.z[3] -
-      (state.z[2] + ((t1569 * t1628 + (t1570 * t1608 - (t1568 * t1638 - t1571 * t1649))) * state.z[4] -
-      ((t1669 + t1669) * state.z[5] - ((c2_2 * (Real(0.9510565162951535) * (q0r2_x_2 * t1575) -
-      (Real(0.3090169943749474) * (q0r2_z_2 * t1575) - model.r_front_y * q0r2_y_2)) - s2_2 * (q0r2_y_2 * t1575
-      + model.r_front_y * (Real(0.3090169943749474) * q0r2_z_2 - Real(0.9510565162951535) * q0r2_x_2))) *
-      state.z[7] + (t1063 * t1834 - (t1109 * t1875 - t1143 * t1886))))));
-  const Real t1909 = front_contacts1bm_x * state.z[3] + (t1842 + (front_contacts1bm_y * state.z[4] +
-      (front_contacts1bm_z_3 * state.z[5] - (front_contacts1bm_z_2 * state.z[7] + (front_contacts1bn3p_x_2 *
-      state.z[8] + (t1073 * t1834 - (t1119 * t1875 - (t1156 * t1886 + t1182 * t1897))))))));
-  const Real t1927 = t1228 * (front_contacts2bm_x * state.z[3] + (t1851 - (front_contacts2bm_y * state.z[4] +
-      (front_contacts2bm_z_3 * state.z[5] - (front_contacts2bm_z_2 * state.z[7] + (front_contacts2bn3p_x_2 *
-      state.z[8] + (t1084 * t1834 - (t1130 * t1875 - (t1168 * t1886 + (t1197 * t1897 + t1212 *
-      t1909))))))))));
-  const Real t1929 = t1211 * t1909 + t1212 * t1927;
-  const Real t1933 = t1182 * t1929 - (t1181 * t1897 + t1197 * t1927);
-  const Real t1939 = t1143 * t1933 + (t1142 * t1886 - (t1156 * t1929 - t1168 * t1927));
-  const Real t1947 = t1097 * t1939 + (t1096 * t1875 - (t1109 * t1933 - (t1119 * t1929 - t1130 * t1927)));
-  const Real t1957 = t1042 * t1947 + (t1041 * t1834 - (t1053 * t1939 - (t1063 * t1933 - (t1073 * t1929 - t1084
-      * t1927))));
-  const Real t2035 = t573 * (t637 * t1947 + (t605 * t1957 - (t669 * t1939 - (t718 * t1933 - (t772 * t1929 -
-      t826 * t1927)))));
-  const Real t2038 = t564 * (t630 * t1947 - (t599 * t1957 + (t662 * t1939 - (t711 * t1933 - (t764 * t1929 -
-      t818 * t1927))))) + t565 * t2035;
-  const Real t2043 = t562 * t2035 + (t549 * (t623 * t1947 + (t593 * t1957 - (t655 * t1939 + (t704 * t1933 +
-      (t756 * t1929 - t810 * t1927))))) + t550 * t2038);
-  const Real t2050 = t547 * t2035 - (t528 * (t616 * t1947 + (t586 * t1957 - (t648 * t1939 - (t696 * t1933 -
-      (t748 * t1929 - t802 * t1927))))) + (t544 * t2038 + t529 * t2043));
-  const Real t2059 = t526 * t2035 - (t496 * (t607 * t1947 - (t576 * t1957 + (t639 * t1939 - (t685 * t1933 +
-      (t737 * t1929 - t791 * t1927))))) + (t523 * t2038 + (t519 * t2043 + t497 * t2050)));
-  const Real t2070 = t494 * t2035 + (t455 * (rear_contacts1bn0_z * t1947 + (t149 * t1957 -
-      (rear_contacts2bn0_z * t1939 - (t674 * t1933 + (t726 * t1929 - t780 * t1927))))) + (t491 * t2038 + (t487
-      * t2043 - (t482 * t2050 + t456 * t2059))));
-  closed.y[0] = -(t1372 - state.y[0]);
-  closed.y[1] = t1375 + state.y[1];
-  closed.y[2] = state.y[2] - t1380;
-  closed.y[3] = t1476;
-  closed.y[4] = -t1477;
-  closed.y[5] = -t1478;
-  closed.y[6] = t1479;
-  closed.y[7] = t1409 + state.y[7];
-  closed.y[8] = state.y[8] - t1422;
-  closed.y[9] = -(t1429 - state.y[9]);
-  closed.z[0] = state.z[0] + t2035;
-  closed.z[1] = state.z[1] - t2038;
-  closed.z[2] = state.z[2] + t2043;
-  closed.z[3] = state.z[3] + t2050;
-  closed.z[4] = state.z[4] + t2059;
-  closed.z[5] = state.z[5] - t2070;
-  closed.z[6] = -(t2059 - (state.z[6] + Real(8.333333333333334) * (rear_contacts1bn0_y * t1947 +
-      rear_contacts2bn0_y * t1939)));
-  closed.z[7] = model.c30 * (front_contacts1bm_z * t1929 + (t87 * t1933 - front_contacts2bm_z * t1927)) +
-      (state.z[7] + (t453 * t2035 + (t450 * t2038 + (t446 * t2043 + (t441 * t2050 - (t435 * t2059 + t401 *
-      t2070))))));
-  closed.z[8] = Real(3.571428571428571) * (front_contacts1bn3p_x * t1929 + front_contacts2bn3p_x * t1927) +
-      (state.z[8] + (t398 * t2050 - (t395 * t2059 - t391 * t2070)));
-  closed.regularity = Real(1.0) / (t1228 * (t1211 * (t1181 * (t1142 * (t1041 * t1096))))) *
+  const Real t1781 = (t1537 * t1594 + (t1536 * t1572 + (t1538 * t1602 + t1535 * t1613))) * state.z[3] -
+      (state.z[2] - ((t1535 * t1602 - t1538 * t1613) * state.z[4] + (t1535 * t1594 - (t1538 * t1572 - (t1536 *
+      t1602 - t1537 * t1613))) * state.z[5]));
+  const Real t1812 = rear_contacts1bm_x * state.z[3] + (state.z[0] + (rear_contacts1bm_y * state.z[4] -
+      (rear_contacts1bn0_z_2 * state.z[5] - (rear_contacts1bn0_y_2 * state.z[6] + t1009 * t1781))));
+  const Real t1823 = rear_contacts2bm_x * state.z[3] + (state.z[1] - (rear_contacts2bm_y * state.z[4] -
+      (rear_contacts2bn0_z_2 * state.z[5] - (rear_contacts2bn0_y_2 * state.z[6] + (t1020 * t1781 - t1064 *
+      t1812)))));
+  const Real t1834 = (t1537 * t1595 - (t1536 * t1575 - (t1538 * t1605 + t1535 * t1616))) * state.z[3] -
+      (state.z[2] + ((t1536 * t1595 + (t1537 * t1575 - (t1535 * t1605 - t1538 * t1616))) * state.z[4] -
+      ((t1636 + t1636) * state.z[5] - ((c2_2 * (Real(0.9510565162951535) * (q0r2_x_2 * t1542) -
+      (Real(0.3090169943749474) * (q0r2_z_2 * t1542) + model.r_front_y * q0r2_y_2)) - s2_2 * (q0r2_y_2 * t1542
+      - model.r_front_y * (Real(0.3090169943749474) * q0r2_z_2 - Real(0.9510565162951535) * q0r2_x_2))) *
+      state.z[7] + (t1030 * t1781 - (t1076 * t1812 - t1110 * t1823))))));
+  const Real t1846 = front_contacts1bm_x * state.z[3] + (state.z[0] + (front_contacts1bm_y * state.z[4] -
+      (front_contacts1bm_z_3 * state.z[5] + (front_contacts1bm_z_2 * state.z[7] - (front_contacts1bn3p_x_2 *
+      state.z[8] + (t1040 * t1781 - (t1086 * t1812 - (t1123 * t1823 + t1149 * t1834))))))));
+  const Real t1864 = t1195 * (front_contacts2bm_x * state.z[3] + (state.z[1] - (front_contacts2bm_y *
+      state.z[4] - (front_contacts2bm_z_3 * state.z[5] + (front_contacts2bm_z_2 * state.z[7] -
+      (front_contacts2bn3p_x_2 * state.z[8] - (t1051 * t1781 - (t1097 * t1812 - (t1135 * t1823 + (t1164 *
+      t1834 - t1179 * t1846))))))))));
+  const Real t1866 = t1178 * t1846 - t1179 * t1864;
+  const Real t1870 = t1149 * t1866 + (t1148 * t1834 + t1164 * t1864);
+  const Real t1876 = t1110 * t1870 - (t1109 * t1823 + (t1123 * t1866 + t1135 * t1864));
+  const Real t1884 = t1064 * t1876 - (t1063 * t1812 + (t1076 * t1870 - (t1086 * t1866 + t1097 * t1864)));
+  const Real t1894 = t1009 * t1884 - (t1008 * t1781 + (t1020 * t1876 - (t1030 * t1870 - (t1040 * t1866 + t1051
+      * t1864))));
+  const Real t1972 = t548 * (t610 * t1884 + (t580 * t1894 + (t640 * t1876 + (t689 * t1870 + (t741 * t1866 +
+      t793 * t1864)))));
+  const Real t1975 = t539 * (t603 * t1884 - (t574 * t1894 + (t634 * t1876 - (t682 * t1870 - (t733 * t1866 +
+      t786 * t1864))))) + t540 * t1972;
+  const Real t1980 = t537 * t1972 + (t524 * (t597 * t1884 + (t568 * t1894 - (t627 * t1876 + (t675 * t1870 +
+      (t726 * t1866 - t778 * t1864))))) + t525 * t1975);
+  const Real t1987 = t522 * t1972 - (t503 * (t591 * t1884 + (t561 * t1894 - (t621 * t1876 - (t667 * t1870 +
+      (t719 * t1866 - t771 * t1864))))) + (t519 * t1975 + t504 * t1980));
+  const Real t1996 = t501 * t1972 - (t471 * (t582 * t1884 - (t551 * t1894 + (t612 * t1876 - (t656 * t1870 -
+      (t708 * t1866 - t760 * t1864))))) + (t498 * t1975 + (t494 * t1980 + t472 * t1987)));
+  const Real t2007 = t469 * t1972 + (t430 * (rear_contacts1bn0_z * t1884 + (t149 * t1894 -
+      (rear_contacts2bn0_z * t1876 - (t645 * t1870 - (t697 * t1866 - t749 * t1864))))) + (t466 * t1975 + (t462
+      * t1980 - (t457 * t1987 + t431 * t1996))));
+  closed.y[0] = -(t1339 - state.y[0]);
+  closed.y[1] = t1342 + state.y[1];
+  closed.y[2] = state.y[2] - t1347;
+  closed.y[3] = t1443;
+  closed.y[4] = -t1444;
+  closed.y[5] = -t1445;
+  closed.y[6] = t1446;
+  closed.y[7] = t1376 + state.y[7];
+  closed.y[8] = state.y[8] - t1389;
+  closed.y[9] = -(t1396 - state.y[9]);
+  closed.z[0] = state.z[0] - t1972;
+  closed.z[1] = state.z[1] + t1975;
+  closed.z[2] = state.z[2] - t1980;
+  closed.z[3] = state.z[3] - t1987;
+  closed.z[4] = state.z[4] - t1996;
+  closed.z[5] = state.z[5] + t2007;
+  closed.z[6] = t1996 + (state.z[6] - Real(8.333333333333334) * (rear_contacts1bn0_y * t1884 +
+      rear_contacts2bn0_y * t1876));
+  closed.z[7] = model.c30 * (front_contacts1bm_z * t1866 - (t87 * t1870 + front_contacts2bm_z * t1864)) +
+      (state.z[7] - (t428 * t1972 + (t425 * t1975 + (t421 * t1980 + (t416 * t1987 - (t410 * t1996 + t376 *
+      t2007))))));
+  closed.z[8] = Real(3.571428571428571) * (front_contacts1bn3p_x * t1866 + front_contacts2bn3p_x * t1864) +
+      (state.z[8] - (t373 * t1987 - (t370 * t1996 - t366 * t2007)));
+  closed.regularity = Real(1.0) / (t1195 * (t1178 * (t1148 * (t1109 * (t1008 * t1063))))) *
       Real(70211.04724568786);
-  closed.opening = t1375 * t1375 + (t1372 * t1372 + (t1380 * t1380 + (t1387 * t1387 + (t1396 * t1396 + (t1407
-      * t1407 + (t1409 * t1409 + (t1422 * t1422 + t1429 * t1429)))))));
+  closed.opening = t1342 * t1342 + (t1339 * t1339 + (t1347 * t1347 + (t1354 * t1354 + (t1363 * t1363 + (t1374
+      * t1374 + (t1376 * t1376 + (t1389 * t1389 + t1396 * t1396)))))));
   state = closed;
 }
 
@@ -2108,28 +2072,23 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real q003 = q0d3 * state.y[3];
   const Real q0r0_x = Real(1.0) - (q022 + q033);
   const Real q0r0_y = q012 - q003;
-  const Real q0r0_z = q013 + q002;
   const Real q0r1_x = q012 + q003;
   const Real q0r1_y = t14 + q033;
   const Real q0r1_z = q023 - q001;
-  const Real t93 = model.rear_radius * q0r1_y;
-  const Real rear_contactc_y = q0r2_y * t93 / rear_contactup;
+  const Real t92 = model.rear_radius * q0r1_y;
+  const Real rear_contactc_y = q0r2_y * t92 / rear_contactup;
   const Real rear_contactc_z = model.rear_radius * (t18 / rear_contactup);
-  const Real rear_contacts1bn0_y = t61 * t93;
+  const Real rear_contacts1bn0_y = t61 * t92;
   const Real rear_contacts1bn0_z = q0r1_z * rear_contactc_z + q0r2_z * rear_contactc_y;
-  const Real t104 = model.rear_radius * q0r0_y;
-  const Real rear_contacts1bm_x = t104 + (q0r1_x * rear_contactc_z - q0r2_x * rear_contactc_y);
+  const Real t103 = model.rear_radius * q0r0_y;
+  const Real rear_contacts1bm_x = t103 + (q0r1_x * rear_contactc_z - q0r2_x * rear_contactc_y);
   const Real rear_contacts1bm_y = rear_contacts1bn0_y + model.rear_radius * q0r0_x;
-  const Real rear_contacts1bf_x = q0r0_z * q0r0_z + (q0r0_x * q0r0_x + q0r0_y * q0r0_y);
-  const Real rear_contacts1bf_y = q0r0_z * q0r1_z + (q0r0_x * q0r1_x - q0r0_y * q0r1_y);
-  const Real rear_contacts1bf_z = q0r2_z * q0r0_z - (q0r2_x * q0r0_x + q0r2_y * q0r0_y);
-  const Real rear_contactc_x = q0r2_y * t104 / rear_contactup;
-  const Real rear_contacts2bn0_y = t61 * t104;
-  const Real rear_contacts2bn0_z = q0r0_z * rear_contactc_z - q0r2_z * rear_contactc_x;
-  const Real rear_contacts2bm_x = q0r2_x * rear_contactc_x + (t93 + q0r0_x * rear_contactc_z);
+  const Real q0r0_z = q013 + q002;
+  const Real rear_contactc_x = q0r2_y * t103 / rear_contactup;
+  const Real rear_contacts2bn0_y = t61 * t103;
+  const Real rear_contacts2bn0_z = rear_contactc_z * q0r0_z - q0r2_z * rear_contactc_x;
+  const Real rear_contacts2bm_x = q0r2_x * rear_contactc_x + (t92 + q0r0_x * rear_contactc_z);
   const Real rear_contacts2bm_y = rear_contacts2bn0_y + model.rear_radius * q0r1_x;
-  const Real rear_contacts2bf_y = q0r1_z * q0r1_z + (q0r1_x * q0r1_x + q0r1_y * q0r1_y);
-  const Real rear_contacts2bf_z = q0r2_z * q0r1_z - (q0r2_x * q0r1_x - q0r2_y * q0r1_y);
   const Real front_contactbd0p_y = front_contactbd2p_z * q0r1_z - (front_contactbd2p_x * q0r1_x + c2 *
       q0r1_y);
   const Real front_contactc_y = model.front_radius * (front_contactbd0p_z * front_contactbd0p_y /
@@ -2167,21 +2126,17 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
       * q0r1_x);
   const Real front_contacts2bm_z_2 = front_contactbx2p_x * q0r1_y + (front_contacts2bn0_z + front_contactbx3_x
       * q0r1_x);
-  const Real t244 = state.y[3] * state.y[3] - Real(0.5) * (q011 + (q022 - q033));
-  const Real t272 = rear_contacts1bf_z * state.z[2] - (rear_contacts1bf_x * state.z[0] + rear_contacts1bf_y *
-      state.z[1]);
+  const Real t219 = state.y[3] * state.y[3] - Real(0.5) * (q011 + (q022 - q033));
   const Real rear_contacts0 = rear_contacts1bn0_y * state.z[6] - (rear_contacts1bn0_z * state.z[5] -
-      (rear_contacts1bm_y * state.z[4] + (t272 - rear_contacts1bm_x * state.z[3])));
-  const Real t285 = rear_contacts2bf_z * state.z[2] - (rear_contacts1bf_y * state.z[0] + rear_contacts2bf_y *
-      state.z[1]);
+      (rear_contacts1bm_y * state.z[4] - (state.z[0] + rear_contacts1bm_x * state.z[3])));
   const Real rear_contacts1 = rear_contacts2bn0_y * state.z[6] + (rear_contacts2bn0_z * state.z[5] +
-      (rear_contacts2bm_y * state.z[4] + (t285 + rear_contacts2bm_x * state.z[3])));
+      (rear_contacts2bm_y * state.z[4] - (state.z[1] - rear_contacts2bm_x * state.z[3])));
   const Real front_contacts0 = front_contacts1bn3p_x * state.z[8] - (front_contacts1bm_z * state.z[7] +
-      (front_contacts1bm_z_2 * state.z[5] - (front_contacts1bm_y * state.z[4] + (t272 - front_contacts1bm_x *
-      state.z[3]))));
+      (front_contacts1bm_z_2 * state.z[5] - (front_contacts1bm_y * state.z[4] - (state.z[0] +
+      front_contacts1bm_x * state.z[3]))));
   const Real front_contacts1 = front_contacts2bn3p_x * state.z[8] - (front_contacts2bm_z * state.z[7] -
-      (front_contacts2bm_z_2 * state.z[5] + (front_contacts2bm_y * state.z[4] + (t285 - front_contacts2bm_x *
-      state.z[3]))));
+      (front_contacts2bm_z_2 * state.z[5] + (front_contacts2bm_y * state.z[4] - (state.z[1] +
+      front_contacts2bm_x * state.z[3]))));
   g[0] = -g_rear_contact;
   g[1] = Real(0.0);
   g[2] = Real(0.0);
@@ -2189,13 +2144,13 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   g[4] = Real(0.0);
   g[5] = Real(0.0);
   g_rate[0] = -(state.z[2] + model.rear_radius * (state.z[5] * (t63 * (q0r2_x * t60)) + (state.z[3] * (q0r2_y
-      - t63 * (t60 * t244)) - q0r2_x * state.z[4])));
+      - t63 * (t60 * t219)) - q0r2_x * state.z[4])));
   g_rate[1] = -rear_contacts0;
   g_rate[2] = rear_contacts1;
   g_rate[3] = -((c2 * (q0r2_y * model.r_front_y - t67 * t74) - s2 * (q0r2_y * t67 + model.r_front_y * t74)) *
       state.z[7] + (state.z[5] * (q0r2_y * t71 - (q0r2_x * front_contactbx3_x + c2 * t70)) - (state.z[4] *
-      (t71 * t244 + (q0r2_x * front_contactbx2p_z - front_contactbd2p_z * t70)) - (state.z[2] + state.z[3] *
-      (t67 * (c2 * t244 - q0r2_y * front_contactbd2p_z) + (front_contactbx3_x * t244 + q0r2_y *
+      (t71 * t219 + (q0r2_x * front_contactbx2p_z - front_contactbd2p_z * t70)) - (state.z[2] + state.z[3] *
+      (t67 * (c2 * t219 - q0r2_y * front_contactbd2p_z) + (front_contactbx3_x * t219 + q0r2_y *
       front_contactbx2p_z))))));
   g_rate[4] = -front_contacts0;
   g_rate[5] = front_contacts1;
@@ -2227,8 +2182,8 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real front_contactbx2p_z = front_contactbx3_y * Real(0.3090169943749474) + model.c26;
   const Real front_contactbd2p_x = s2 * Real(0.9510565162951535);
   const Real front_contactbd2p_z = s2 * Real(0.3090169943749474);
-  const Real front_contactbd0p_z = q0r2_y * c2 - (q0r2_x * front_contactbd2p_x + q0r2_z *
-      front_contactbd2p_z);
+  const Real front_contactbd0p_z = q0r2_z * front_contactbd2p_z + (q0r2_x * front_contactbd2p_x - q0r2_y *
+      c2);
   const Real t44 = Real(1.0) - front_contactbd0p_z * front_contactbd0p_z;
   const Real front_contactup = detail::square_root(t44);
   const Real t47 = state.y[3] * Real(0.5);
@@ -2243,72 +2198,68 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t56 = Real(0.5) * t55;
   const Real t58 = t56 * model.front_radius;
   const Real t59 = t54 * t58;
-  const Real t64 = front_contactbx2p_z + front_contactbd2p_z * t59;
-  const Real t65 = front_contactbx3_x - c2 * t59;
-  const Real t66 = front_contactbx2p_x + front_contactbd2p_x * t59;
+  const Real t64 = front_contactbx2p_z - front_contactbd2p_z * t59;
+  const Real t65 = front_contactbx3_x + c2 * t59;
+  const Real t66 = front_contactbx2p_x - front_contactbd2p_x * t59;
   const Real t69 = q0r2_z * Real(0.3090169943749474) + q0r2_x * Real(0.9510565162951535);
-  const Real t71 = q0r2_y * t59 - model.r_front_y * t69;
-  const Real t74 = q0r2_y * model.r_front_y + t59 * t69;
-  const Real t77 = c2 * t74 + s2 * t71;
+  const Real t71 = q0r2_y * t59 + model.r_front_y * t69;
+  const Real t74 = q0r2_y * model.r_front_y - t59 * t69;
+  const Real t77 = c2 * t74 - s2 * t71;
   const Real t82 = t51 * t53;
   const Real t84 = t82 * model.rear_radius;
   const Real t86 = q0d1 * t84;
   const Real t89 = q0d2 * t66 - q0d1 * t65;
   const Real t109 = q0d2 * t84;
   const Real t110 = Real(2.0) * (state.y[4] * t66 + state.y[5] * t65);
-  const Real t119 = q0d2 * model.rear_radius - (q0d3 * t84 - state.y[5] * model.mr_z);
-  const Real t122 = q0d2 * t64 + (q0d3 * t65 - Real(2.0) * (state.y[3] * t66 - state.y[5] * t64));
+  const Real t119 = state.y[5] * model.mr_z - (q0d3 * t84 - q0d2 * model.rear_radius);
+  const Real t122 = Real(2.0) * (state.y[3] * t66 - state.y[5] * t64) - (q0d3 * t65 + q0d2 * t64);
   const Real t129 = q0d1 * model.rear_radius - Real(2.0) * (state.y[3] * t84 - state.y[4] *
       model.rear_radius);
-  const Real t132 = q0d1 * t64 + (q0d3 * t66 + Real(2.0) * (state.y[3] * t65 + state.y[4] * t64));
-  const Real t138 = t47 * t109 - (t50 * t86 - (t48 * t119 - t49 * t129));
+  const Real t132 = Real(2.0) * (state.y[3] * t65 + state.y[4] * t64) + (q0d3 * t66 + q0d1 * t64);
+  const Real t138 = t49 * t129 - (t48 * t119 - (t50 * t86 - t47 * t109));
   const Real q033 = state.y[6] * q0d3;
   const Real q012 = state.y[4] * q0d2;
   const Real q003 = q0d3 * state.y[3];
-  const Real q0r0_x = q033 + (q022 - Real(1.0));
+  const Real q0r0_x = Real(1.0) - (q022 + q033);
   const Real q0r0_y = q012 - q003;
-  const Real q0r0_z = q013 + q002;
   const Real q0r1_x = q012 + q003;
   const Real q0r1_y = t14 + q033;
   const Real q0r1_z = q023 - q001;
-  const Real t151 = model.rear_radius * q0r1_y;
-  const Real rear_contactc_y = t82 * t151;
+  const Real t150 = model.rear_radius * q0r1_y;
+  const Real rear_contactc_y = t82 * t150;
   const Real rear_contactc_z = model.rear_radius * (t17 / rear_contactup);
-  const Real rear_contacts1bn0_y = t52 * t151;
+  const Real rear_contacts1bn0_y = t52 * t150;
   const Real rear_contacts1bn0_z = q0r1_z * rear_contactc_z + q0r2_z * rear_contactc_y;
-  const Real t161 = model.rear_radius * q0r0_y;
-  const Real rear_contacts1bf_x = q0r0_y * q0r0_y + (q0r0_x * q0r0_x + q0r0_z * q0r0_z);
-  const Real rear_contacts1bf_y = q0r0_y * q0r1_y + (q0r0_x * q0r1_x - q0r0_z * q0r1_z);
-  const Real rear_contacts1bf_z = q0r2_y * q0r0_y - (q0r2_x * q0r0_x + q0r2_z * q0r0_z);
-  const Real rear_contactc_x = t82 * t161;
-  const Real rear_contacts2bn0_y = t52 * t161;
-  const Real rear_contacts2bn0_z = q0r0_z * rear_contactc_z - q0r2_z * rear_contactc_x;
-  const Real rear_contacts2bf_y = q0r1_y * q0r1_y + (q0r1_x * q0r1_x + q0r1_z * q0r1_z);
-  const Real rear_contacts2bf_z = q0r2_y * q0r1_y - (q0r2_x * q0r1_x - q0r2_z * q0r1_z);
-  const Real front_contactbd0p_y = c2 * q0r1_y + (front_contactbd2p_x * q0r1_x - front_contactbd2p_z *
-      q0r1_z);
+  const Real t160 = model.rear_radius * q0r0_y;
+  const Real q0r0_z = q013 + q002;
+  const Real rear_contactc_x = t82 * t160;
+  const Real rear_contacts2bn0_y = t52 * t160;
+  const Real rear_contacts2bn0_z = rear_contactc_z * q0r0_z - q0r2_z * rear_contactc_x;
+  const Real front_contactbd0p_y = front_contactbd2p_z * q0r1_z - (front_contactbd2p_x * q0r1_x + c2 *
+      q0r1_y);
   const Real front_contactc_y = t59 * front_contactbd0p_y;
   const Real front_contactc_z = model.front_radius * (t44 / front_contactup);
-  const Real front_contacts1bf2_y = Real(0.3090169943749474) * q0r0_z + Real(0.9510565162951535) * q0r0_x;
+  const Real front_contacts1bf2_y = Real(0.3090169943749474) * q0r0_z - Real(0.9510565162951535) * q0r0_x;
   const Real front_contacts1bn0_x = q0r1_x * front_contactc_z - q0r2_x * front_contactc_y;
   const Real front_contacts1bn0_y = q0r1_y * front_contactc_z + q0r2_y * front_contactc_y;
   const Real front_contacts1bn0_z = q0r1_z * front_contactc_z + q0r2_z * front_contactc_y;
   const Real front_contacts1bn2_y = Real(0.3090169943749474) * front_contacts1bn0_z - Real(0.9510565162951535)
       * front_contacts1bn0_x;
   const Real front_contacts1bn3p_x = c2 * front_contacts1bn0_y - s2 * front_contacts1bn2_y;
-  const Real front_contacts1bm_z = Real(0.9510565162951535) * front_contacts1bn0_z + (Real(0.3090169943749474)
-      * front_contacts1bn0_x + (front_contactbx3_y * q0r0_y + front_contactbx3_x * front_contacts1bf2_y));
-  const Real front_contactbd0p_x = c2 * q0r0_y + s2 * front_contacts1bf2_y;
+  const Real front_contacts1bm_z = front_contactbx3_x * front_contacts1bf2_y + (front_contactbx3_y * q0r0_y +
+      (Real(0.3090169943749474) * front_contacts1bn0_x + Real(0.9510565162951535) * front_contacts1bn0_z));
+  const Real front_contactbd0p_x = front_contactbd2p_z * q0r0_z - (front_contactbd2p_x * q0r0_x - c2 *
+      q0r0_y);
   const Real front_contactc_x = t59 * front_contactbd0p_x;
   const Real front_contacts2bf2_y = Real(0.3090169943749474) * q0r1_z - Real(0.9510565162951535) * q0r1_x;
   const Real front_contacts2bn0_x = q0r0_x * front_contactc_z - q0r2_x * front_contactc_x;
-  const Real front_contacts2bn0_y = q0r0_y * front_contactc_z + q0r2_y * front_contactc_x;
-  const Real front_contacts2bn0_z = q0r0_z * front_contactc_z - q0r2_z * front_contactc_x;
-  const Real front_contacts2bn2_y = Real(0.3090169943749474) * front_contacts2bn0_z + Real(0.9510565162951535)
+  const Real front_contacts2bn0_y = q0r0_y * front_contactc_z - q0r2_y * front_contactc_x;
+  const Real front_contacts2bn0_z = q0r0_z * front_contactc_z + q0r2_z * front_contactc_x;
+  const Real front_contacts2bn2_y = Real(0.3090169943749474) * front_contacts2bn0_z - Real(0.9510565162951535)
       * front_contacts2bn0_x;
   const Real front_contacts2bn3p_x = c2 * front_contacts2bn0_y + s2 * front_contacts2bn2_y;
-  const Real front_contacts2bm_z = Real(0.9510565162951535) * front_contacts2bn0_z - (Real(0.3090169943749474)
-      * front_contacts2bn0_x - model.r_front_y * front_contactbd0p_y);
+  const Real front_contacts2bm_z = front_contactbx3_x * front_contacts2bf2_y - (front_contactbx3_y * q0r1_y +
+      (Real(0.3090169943749474) * front_contacts2bn0_x + Real(0.9510565162951535) * front_contacts2bn0_z));
   const Real S2b_t = s2 * model.S2b_d;
   const Real S2b_xx = s2 * S2b_t - Real(0.003500000000000002);
   const Real S2b_xy = c2 * S2b_t;
@@ -2319,30 +2270,31 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real h2b_y = c2 * model.front_h_y;
   const Real h2at2_x = Real(0.9510565162951535) * h2b_y;
   const Real h2at2_z = Real(0.3090169943749474) * h2b_y;
-  const Real t295 = Real(0.3090169943749474) * S2b_yz;
-  const Real S2at2r0_y = t295 + Real(0.9510565162951535) * S2b_yy;
-  const Real t298 = Real(0.9510565162951535) * S2b_yz;
-  const Real S2at2r0_z = t298 + Real(0.04326237921249264);
-  const Real S2at2r2_y = t298 - Real(0.3090169943749474) * S2b_yy;
+  const Real t271 = Real(0.3090169943749474) * S2b_yz;
+  const Real S2at2r0_y = t271 + Real(0.9510565162951535) * S2b_yy;
+  const Real t274 = Real(0.9510565162951535) * S2b_yz;
+  const Real S2at2r0_z = t274 + Real(0.04326237921249264);
+  const Real S2at2r2_y = t274 - Real(0.3090169943749474) * S2b_yy;
   const Real h2c_x = h2at2_x + model.c6;
   const Real h2c_z = h2at2_z + model.c7;
-  const Real t313 = h2b_x * model.r_steer_x;
-  const Real S2c_xy = Real(0.9510565162951535) * S2b_xy - (Real(0.3090169943749474) * S2b_xz + t313);
-  const Real t324 = h2at2_z - model.h_z;
-  const Real S2c_xz = model.r_steer_x * t324 - (Real(0.9510565162951535) * S2at2r0_z - ((h2at2_x + model.c9) *
-      model.r_steer_z + Real(0.3090169943749474) * (S2at2r0_y - model.SR_z))) + Real(25.349999999999998);
+  const Real t289 = h2b_x * model.r_steer_x;
+  const Real S2c_xy = t289 + (Real(0.3090169943749474) * S2b_xz - Real(0.9510565162951535) * S2b_xy);
+  const Real t300 = h2at2_z - model.h_z;
+  const Real S2c_xz = Real(0.3090169943749474) * (S2at2r0_y - model.SR_z) + ((h2at2_x + model.c9) *
+      model.r_steer_z - (Real(0.9510565162951535) * S2at2r0_z - model.r_steer_x * t300)) +
+      Real(25.349999999999998);
   const Real S2c_yy = S2b_xx - Real(0.5002999999999995);
-  const Real t333 = h2b_x * model.r_steer_z;
-  const Real S2c_yz = Real(0.9510565162951535) * S2b_xz + (Real(0.3090169943749474) * S2b_xy - t333);
-  const Real S1c_xx = Real(0.3090169943749474) * (S2at2r0_z + model.SR_x) + (Real(0.9510565162951535) *
-      S2at2r0_y + (h2at2_x + model.h_x) * model.c14) + model.c16;
-  const Real S1c_zz = Real(0.9510565162951535) * (t295 - model.c18) + (Real(0.3090169943749474) * S2at2r2_y -
-      t324 * model.c17) - model.c19;
+  const Real t309 = h2b_x * model.r_steer_z;
+  const Real S2c_yz = t309 - (Real(0.3090169943749474) * S2b_xy + Real(0.9510565162951535) * S2b_xz);
+  const Real S1c_xx = (h2at2_x + model.h_x) * model.c14 + (Real(0.9510565162951535) * S2at2r0_y +
+      Real(0.3090169943749474) * (S2at2r0_z + model.SR_x)) + model.c16;
+  const Real S1c_zz = t300 * model.c17 - (Real(0.3090169943749474) * S2at2r2_y + Real(0.9510565162951535) *
+      (t271 - model.c18)) + model.c19;
   const Real p_7_2l_x = h2b_y * model.r_steer_z;
   const Real p_7_2l_z = h2b_y * model.r_steer_x;
-  const Real p_7_2n_x = t298 - p_7_2l_x + model.c20;
-  const Real p_7_2n_y = t313 * Real(0.3090169943749474) + (S2b_xz - t333 * Real(0.9510565162951535));
-  const Real p_7_2n_z = t295 + p_7_2l_z - model.c21;
+  const Real p_7_2n_x = t274 - p_7_2l_x + model.c20;
+  const Real p_7_2n_y = t309 * Real(0.9510565162951535) - (S2b_xz + t289 * Real(0.3090169943749474));
+  const Real p_7_2n_z = t271 + p_7_2l_z - model.c21;
   const Real p_7_0f_x = front_contactbd0p_x * model.front_h_y;
   const Real p_7_0f_y = front_contactbd0p_y * model.front_h_y;
   const Real p_7_0f_z = front_contactbd0p_z * model.front_h_y;
@@ -2350,268 +2302,268 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real p_8_3N_y = s2 * Real(0.28);
   const Real p_8_2n_x = Real(0.9510565162951535) * p_8_3N_y;
   const Real p_8_2n_z = Real(0.3090169943749474) * p_8_3N_y;
-  const Real t397 = p_8_2n_z * Real(3.571428571428571);
-  const Real t401 = p_8_3N_x * Real(3.571428571428571);
-  const Real t404 = p_8_2n_x * Real(3.571428571428571);
-  const Real t407 = p_7_2n_z * model.c30;
-  const Real t414 = p_8_3N_x * t397 + (S2c_yz + p_7_2n_y * t407);
-  const Real t417 = p_8_2n_x * t397 + (S2c_xz - p_7_2n_x * t407);
-  const Real t420 = q0r2_y * h2c_x - (q0r2_x * h2b_x - p_7_0f_z * t407);
-  const Real t423 = q0r1_y * h2c_x + (q0r1_x * h2b_x + p_7_0f_y * t407);
-  const Real t426 = q0r0_y * h2c_x + (q0r0_x * h2b_x + p_7_0f_x * t407);
-  const Real t427 = p_7_2n_y * model.c30;
-  const Real t433 = p_7_2n_x * model.c30;
-  const Real t438 = p_7_0f_z * model.c30;
-  const Real t442 = p_7_0f_y * model.c30;
-  const Real t445 = p_7_0f_x * model.c30;
-  const Real t447 = Real(1.0) / (S1c_xx - (S2c_yy + (p_8_2n_z * t397 - p_7_2n_z * t407)));
-  const Real t448 = t414 * t447;
-  const Real t459 = p_8_2n_x * t401 + (S2c_xy + (p_7_2n_x * t427 + t417 * t448));
-  const Real t463 = q0r2_z * h2c_x - (q0r2_x * h2c_z + (p_7_0f_z * t427 - t420 * t448));
-  const Real t467 = q0r1_z * h2c_x + (q0r1_x * h2c_z - (p_7_0f_y * t427 - t423 * t448));
-  const Real t471 = q0r0_z * h2c_x - (q0r0_x * h2c_z - (p_7_0f_x * t427 - t426 * t448));
-  const Real t472 = t417 * t447;
-  const Real t477 = t420 * t447;
-  const Real t481 = t423 * t447;
-  const Real t484 = t426 * t447;
-  const Real t486 = Real(1.0) / (S1c_zz - (S1c_xx - (p_8_3N_x * t401 - (p_7_2n_y * t427 - t414 * t448))) +
+  const Real t373 = p_8_2n_z * Real(3.571428571428571);
+  const Real t377 = p_8_3N_x * Real(3.571428571428571);
+  const Real t380 = p_8_2n_x * Real(3.571428571428571);
+  const Real t383 = p_7_2n_z * model.c30;
+  const Real t390 = p_7_2n_y * t383 + (S2c_yz - p_8_3N_x * t373);
+  const Real t393 = p_7_2n_x * t383 - (S2c_xz + p_8_2n_x * t373);
+  const Real t396 = p_7_0f_z * t383 + (q0r2_x * h2b_x - q0r2_y * h2c_x);
+  const Real t399 = p_7_0f_y * t383 - (q0r1_x * h2b_x + q0r1_y * h2c_x);
+  const Real t402 = p_7_0f_x * t383 - (q0r0_x * h2b_x - q0r0_y * h2c_x);
+  const Real t403 = p_7_2n_y * model.c30;
+  const Real t409 = p_7_2n_x * model.c30;
+  const Real t414 = p_7_0f_z * model.c30;
+  const Real t418 = p_7_0f_y * model.c30;
+  const Real t421 = p_7_0f_x * model.c30;
+  const Real t423 = Real(1.0) / (p_7_2n_z * t383 - (p_8_2n_z * t373 + (S2c_yy - S1c_xx)));
+  const Real t424 = t390 * t423;
+  const Real t435 = t393 * t424 - (p_7_2n_x * t403 + (S2c_xy - p_8_2n_x * t377));
+  const Real t439 = t396 * t424 - (p_7_0f_z * t403 + (q0r2_x * h2c_z - q0r2_z * h2c_x));
+  const Real t443 = t399 * t424 - (p_7_0f_y * t403 - (q0r1_x * h2c_z + q0r1_z * h2c_x));
+  const Real t447 = t402 * t424 - (p_7_0f_x * t403 - (q0r0_x * h2c_z + q0r0_z * h2c_x));
+  const Real t448 = t393 * t423;
+  const Real t453 = t396 * t423;
+  const Real t457 = t399 * t423;
+  const Real t460 = t402 * t423;
+  const Real t462 = Real(1.0) / (t390 * t424 - (p_7_2n_y * t403 - (p_8_3N_x * t377 - (S1c_xx + S1c_zz))) +
       Real(0.12));
-  const Real t487 = t459 * t486;
-  const Real t498 = q0r2_z * h2b_x - (q0r2_y * h2c_z - (p_7_0f_z * t433 + (t420 * t472 - t463 * t487)));
-  const Real t503 = q0r1_z * h2b_x - (q0r1_y * h2c_z - (p_7_0f_y * t433 + (t423 * t472 - t467 * t487)));
-  const Real t508 = q0r0_z * h2b_x + (q0r0_y * h2c_z - (p_7_0f_x * t433 + (t426 * t472 + t471 * t487)));
-  const Real t509 = t463 * t486;
-  const Real t513 = t467 * t486;
-  const Real t516 = t471 * t486;
-  const Real t518 = Real(1.0) / (S1c_zz + (S2c_yy + (p_8_2n_x * t404 - (p_7_2n_x * t433 - (t417 * t472 - t459
-      * t487)))));
-  const Real t519 = t498 * t518;
-  const Real t529 = t423 * t477 - (p_7_0f_y * t438 + (t467 * t509 + t503 * t519));
-  const Real t533 = t426 * t477 - (p_7_0f_x * t438 - (t471 * t509 + t508 * t519));
-  const Real t534 = t503 * t518;
-  const Real t537 = t508 * t518;
-  const Real t539 = Real(1.0) / (t420 * t477 - (p_7_0f_z * t438 + (t463 * t509 + t498 * t519)) - Real(94.0));
-  const Real t540 = t529 * t539;
-  const Real t551 = t426 * t481 - (p_7_0f_x * t442 - (t471 * t513 + (t508 * t534 - t533 * t540)));
-  const Real t552 = t533 * t539;
-  const Real t554 = Real(1.0) / (Real(94.0) + (p_7_0f_y * t442 - (t423 * t481 - (t467 * t513 + (t503 * t534 +
-      t529 * t540)))));
-  const Real t555 = t551 * t554;
-  const Real t563 = Real(1.0) / (Real(94.0) + (p_7_0f_x * t445 - (t426 * t484 - (t471 * t516 + (t508 * t537 +
-      (t533 * t552 - t551 * t555))))));
-  const Real t566 = t50 * t129 - (t47 * t119 - t138 * t448);
-  const Real t576 = t49 * t109 + (t48 * t86 + (t50 * t119 + (t47 * t129 + (t138 * t472 - t487 * t566))));
-  const Real t583 = t138 * t477 + (Real(1.0) - (t509 * t566 + t519 * t576));
-  const Real t589 = t513 * t566 - (t138 * t481 - (t534 * t576 + t540 * t583));
-  const Real t595 = t516 * t566 + (t138 * t484 + (t537 * t576 - (t552 * t583 + t555 * t589)));
-  const Real t597 = model.rear_radius * q0r0_x + rear_contacts1bn0_z * t448;
-  const Real t606 = q0r2_x * rear_contactc_y - (q0r1_x * rear_contactc_z + (t161 - (rear_contacts1bn0_z * t472
-      - t487 * t597)));
-  const Real t613 = rear_contacts1bn0_z * t477 - (rear_contacts1bf_z + (t509 * t597 + t519 * t606));
-  const Real t620 = rear_contacts1bn0_z * t481 - (rear_contacts1bf_y + (t513 * t597 + (t534 * t606 + t540 *
-      t613)));
-  const Real t627 = rear_contacts1bn0_z * t484 - (rear_contacts1bf_x - (t516 * t597 + (t537 * t606 - (t552 *
-      t613 - t555 * t620))));
-  const Real t629 = model.rear_radius * q0r1_x + rear_contacts2bn0_z * t448;
-  const Real t638 = q0r0_x * rear_contactc_z - (t151 + (q0r2_x * rear_contactc_x - (rear_contacts2bn0_z * t472
-      - t487 * t629)));
-  const Real t645 = rear_contacts2bn0_z * t477 - (rear_contacts2bf_z + (t509 * t629 + t519 * t638));
-  const Real t652 = rear_contacts2bn0_z * t481 - (rear_contacts2bf_y + (t513 * t629 + (t534 * t638 + t540 *
-      t645)));
-  const Real t659 = rear_contacts2bn0_z * t484 - (rear_contacts1bf_y - (t516 * t629 + (t537 * t638 - (t552 *
-      t645 - t555 * t652))));
-  const Real t661 = t50 * t89 + t47 * t110;
-  const Real t663 = t661 + (t77 * t407 + t661);
-  const Real t674 = t48 * t110 + (t49 * t89 + (t47 * t122 - (t50 * t132 + (t77 * t427 - t448 * t663))));
-  const Real t685 = t49 * t110 - (t48 * t89 + (t50 * t122 + (t47 * t132 - (t77 * t433 + (t472 * t663 - t487 *
-      t674)))));
-  const Real t693 = t77 * t438 + (Real(1.0) - (t477 * t663 - (t509 * t674 + t519 * t685)));
-  const Real t700 = t481 * t663 - (t77 * t442 + (t513 * t674 + (t534 * t685 - t540 * t693)));
-  const Real t707 = t484 * t663 - (t77 * t445 - (t516 * t674 + (t537 * t685 + (t552 * t693 + t555 * t700))));
-  const Real t715 = front_contactbx3_x * q0r0_x + (front_contacts1bn0_z + (front_contactbx2p_x * q0r0_y +
-      (front_contacts1bn3p_x * t397 + front_contacts1bm_z * t407)));
-  const Real t726 = front_contactbx2p_z * q0r0_x - (front_contacts1bn0_y + (front_contactbx2p_x * q0r0_z -
-      (front_contacts1bn3p_x * t401 - (front_contacts1bm_z * t427 - t448 * t715))));
-  const Real t737 = front_contactbx2p_z * q0r0_y + (front_contacts1bn0_x + (front_contactbx3_x * q0r0_z -
-      (front_contacts1bn3p_x * t404 + (front_contacts1bm_z * t433 + (t472 * t715 - t487 * t726)))));
-  const Real t745 = front_contacts1bm_z * t438 + (rear_contacts1bf_z - (t477 * t715 - (t509 * t726 - t519 *
-      t737)));
-  const Real t753 = front_contacts1bm_z * t442 + (rear_contacts1bf_y - (t481 * t715 - (t513 * t726 - (t534 *
-      t737 + t540 * t745))));
-  const Real t761 = front_contacts1bm_z * t445 + (rear_contacts1bf_x - (t484 * t715 + (t516 * t726 - (t537 *
-      t737 - (t552 * t745 - t555 * t753)))));
-  const Real t769 = front_contactbx3_x * q0r1_x + (front_contacts2bn0_z + (front_contactbx2p_x * q0r1_y -
-      (front_contacts2bn3p_x * t397 - front_contacts2bm_z * t407)));
-  const Real t780 = front_contactbx2p_z * q0r1_x + (front_contacts2bn0_y + (front_contactbx2p_x * q0r1_z -
-      (front_contacts2bn3p_x * t401 + (front_contacts2bm_z * t427 - t448 * t769))));
-  const Real t791 = front_contactbx2p_z * q0r1_y - (front_contacts2bn0_x + (front_contactbx3_x * q0r1_z -
-      (front_contacts2bn3p_x * t404 - (front_contacts2bm_z * t433 + (t472 * t769 - t487 * t780)))));
-  const Real t799 = front_contacts2bm_z * t438 + (rear_contacts2bf_z - (t477 * t769 - (t509 * t780 - t519 *
-      t791)));
-  const Real t807 = front_contacts2bm_z * t442 + (rear_contacts2bf_y - (t481 * t769 - (t513 * t780 - (t534 *
-      t791 + t540 * t799))));
-  const Real t815 = front_contacts2bm_z * t445 + (rear_contacts1bf_y - (t484 * t769 + (t516 * t780 - (t537 *
-      t791 - (t552 * t799 - t555 * t807)))));
-  const Real t828 = t563 * t627;
-  const Real t829 = t554 * t620;
-  const Real t830 = t539 * t613;
-  const Real t831 = t518 * t606;
-  const Real t832 = t486 * t597;
-  const Real t833 = rear_contacts1bn0_z * t447;
-  const Real t844 = t589 * t829 - (t595 * t828 - (t583 * t830 + (t576 * t831 + (t566 * t832 - t138 * t833))));
-  const Real t854 = t563 * t659;
-  const Real t855 = t554 * t652;
-  const Real t856 = t539 * t645;
-  const Real t857 = t518 * t638;
-  const Real t858 = t486 * t629;
-  const Real t859 = rear_contacts2bn0_z * t447;
-  const Real t860 = rear_contacts2bn0_y * Real(8.333333333333334);
-  const Real t871 = t589 * t855 - (t595 * t854 - (t583 * t856 + (t576 * t857 + (t566 * t858 - t138 * t859))));
-  const Real t886 = t563 * t707;
-  const Real t887 = t554 * t700;
-  const Real t888 = t539 * t693;
-  const Real t889 = t518 * t685;
-  const Real t890 = t486 * t674;
-  const Real t891 = t447 * t663;
-  const Real t902 = t589 * t887 - (t595 * t886 + (t583 * t888 - (t576 * t889 + (t566 * t890 - t138 * t891))));
-  const Real t923 = t563 * t761;
-  const Real t924 = t554 * t753;
-  const Real t925 = t539 * t745;
-  const Real t926 = t518 * t737;
-  const Real t927 = t486 * t726;
-  const Real t928 = t447 * t715;
-  const Real t929 = front_contacts1bm_z * model.c30;
-  const Real t940 = t589 * t924 - (t595 * t923 - (t583 * t925 + (t576 * t926 - (t566 * t927 - t138 * t928))));
-  const Real t969 = t563 * t815;
-  const Real t970 = t554 * t807;
-  const Real t971 = t539 * t799;
-  const Real t972 = t518 * t791;
-  const Real t973 = t486 * t780;
-  const Real t974 = t447 * t769;
-  const Real t975 = front_contacts2bm_z * model.c30;
-  const Real t976 = front_contacts2bn3p_x * Real(3.571428571428571);
-  const Real t987 = t589 * t970 - (t595 * t969 - (t583 * t971 + (t576 * t972 - (t566 * t973 - t138 * t974))));
-  const Real t1030 = Real(1.0) / (t589 * (t554 * t589) + (t595 * (t563 * t595) - (t583 * (t539 * t583) + (t576
-      * (t518 * t576) + (t566 * (t486 * t566) - t138 * (t138 * t447))))) + Real(1.8087085566416913e-12));
-  const Real t1031 = t844 * t1030;
-  const Real t1042 = t871 * t1030;
-  const Real t1050 = t620 * t855 + (t627 * t854 - (t613 * t856 + (t606 * t857 + (t597 * t858 -
-      (rear_contacts1bn0_z * t859 - (rear_contacts1bn0_y * t860 + t844 * t1042))))));
-  const Real t1052 = t902 * t1030;
-  const Real t1059 = t620 * t887 + (t627 * t886 + (t613 * t888 - (t606 * t889 + (t597 * t890 -
-      (rear_contacts1bn0_z * t891 - t844 * t1052)))));
-  const Real t1062 = t940 * t1030;
-  const Real t1069 = t620 * t924 + (t627 * t923 - (t613 * t925 + (t606 * t926 - (t597 * t927 -
-      (rear_contacts1bn0_z * t928 + t844 * t1062)))));
-  const Real t1073 = t987 * t1030;
-  const Real t1080 = t620 * t970 + (t627 * t969 - (t613 * t971 + (t606 * t972 - (t597 * t973 -
-      (rear_contacts1bn0_z * t974 + t844 * t1073)))));
-  const Real t1085 = Real(1.0) / (t620 * t829 + (t627 * t828 - (t613 * t830 + (t606 * t831 + (t597 * t832 -
-      (rear_contacts1bn0_z * t833 + (rear_contacts1bn0_y * rear_contacts1bn0_y * Real(8.333333333333334) -
-      t844 * t1031)))))) + Real(7.806783314072456e-11));
-  const Real t1086 = t1050 * t1085;
-  const Real t1098 = t1059 * t1085;
-  const Real t1106 = t652 * t887 + (t659 * t886 + (t645 * t888 - (t638 * t889 + (t629 * t890 -
-      (rear_contacts2bn0_z * t891 - (t871 * t1052 + t1050 * t1098))))));
-  const Real t1108 = t1069 * t1085;
-  const Real t1116 = t652 * t924 + (t659 * t923 - (t645 * t925 + (t638 * t926 - (t629 * t927 -
-      (rear_contacts2bn0_z * t928 + (t871 * t1062 + t1050 * t1108))))));
-  const Real t1119 = t1080 * t1085;
-  const Real t1127 = t652 * t970 + (t659 * t969 - (t645 * t971 + (t638 * t972 - (t629 * t973 -
-      (rear_contacts2bn0_z * t974 + (t871 * t1073 + t1050 * t1119))))));
-  const Real t1131 = Real(1.0) / (t652 * t855 + (t659 * t854 - (t645 * t856 + (t638 * t857 + (t629 * t858 -
-      (rear_contacts2bn0_z * t859 + (rear_contacts2bn0_y * t860 - (t871 * t1042 + t1050 * t1086))))))) +
-      Real(8.816994788327498e-12));
-  const Real t1132 = t1106 * t1131;
-  const Real t1145 = t1116 * t1131;
-  const Real t1155 = t700 * t924 + (t707 * t923 + (t693 * t925 - (t685 * t926 - (t674 * t927 - (t663 * t928 -
-      (t77 * t929 - (t902 * t1062 + (t1059 * t1108 + t1106 * t1145))))))));
-  const Real t1157 = t1127 * t1131;
-  const Real t1167 = t700 * t970 + (t707 * t969 + (t693 * t971 - (t685 * t972 - (t674 * t973 - (t663 * t974 -
-      (t77 * t975 - (t902 * t1073 + (t1059 * t1119 + t1106 * t1157))))))));
-  const Real t1170 = Real(1.0) / (t700 * t887 + (t707 * t886 - (t693 * t888 + (t685 * t889 + (t674 * t890 -
-      (t663 * t891 - (model.c30 * (t77 * t77) + (t902 * t1052 + (t1059 * t1098 + t1106 * t1132)))))))) +
+  const Real t463 = t435 * t462;
+  const Real t474 = t439 * t463 - (t396 * t448 - (p_7_0f_z * t409 + (q0r2_y * h2c_z - q0r2_z * h2b_x)));
+  const Real t479 = t443 * t463 - (t399 * t448 - (p_7_0f_y * t409 + (q0r1_y * h2c_z - q0r1_z * h2b_x)));
+  const Real t484 = t447 * t463 - (t402 * t448 - (p_7_0f_x * t409 - (q0r0_y * h2c_z + q0r0_z * h2b_x)));
+  const Real t485 = t439 * t462;
+  const Real t489 = t443 * t462;
+  const Real t492 = t447 * t462;
+  const Real t494 = Real(1.0) / (t435 * t463 - (t393 * t448 - (p_7_2n_x * t409 - (p_8_2n_x * t380 + (S2c_yy -
+      S1c_zz)))));
+  const Real t495 = t474 * t494;
+  const Real t505 = t479 * t495 - (t443 * t485 + (p_7_0f_y * t414 - t399 * t453));
+  const Real t509 = t484 * t495 - (t447 * t485 + (p_7_0f_x * t414 - t402 * t453));
+  const Real t510 = t479 * t494;
+  const Real t513 = t484 * t494;
+  const Real t515 = Real(1.0) / (t474 * t495 - (t439 * t485 + (p_7_0f_z * t414 - t396 * t453)) - Real(94.0));
+  const Real t516 = t505 * t515;
+  const Real t527 = t509 * t516 - (t484 * t510 - (t447 * t489 + (p_7_0f_x * t418 - t402 * t457)));
+  const Real t528 = t509 * t515;
+  const Real t530 = Real(1.0) / (t505 * t516 - (t479 * t510 - (t443 * t489 - (t399 * t457 - (p_7_0f_y * t418 +
+      Real(94.0))))));
+  const Real t531 = t527 * t530;
+  const Real t539 = Real(1.0) / (t527 * t531 - (t509 * t528 - (t484 * t513 - (t447 * t492 - (t402 * t460 -
+      (p_7_0f_x * t421 + Real(94.0)))))));
+  const Real t542 = t138 * t424 - (t47 * t119 - t50 * t129);
+  const Real t552 = t463 * t542 - (t138 * t448 + (t47 * t129 + (t50 * t119 + (t48 * t86 + t49 * t109))));
+  const Real t559 = t495 * t552 - (t485 * t542 - (Real(1.0) + t138 * t453));
+  const Real t565 = t516 * t559 - (t510 * t552 + (t138 * t457 - t489 * t542));
+  const Real t571 = t531 * t565 - (t528 * t559 - (t513 * t552 + (t138 * t460 - t492 * t542)));
+  const Real t573 = model.rear_radius * q0r0_x + rear_contacts1bn0_z * t424;
+  const Real t582 = t463 * t573 - (rear_contacts1bn0_z * t448 + (t160 + (q0r1_x * rear_contactc_z - q0r2_x *
+      rear_contactc_y)));
+  const Real t588 = t495 * t582 + (rear_contacts1bn0_z * t453 - t485 * t573);
+  const Real t594 = t516 * t588 - (t510 * t582 + (rear_contacts1bn0_z * t457 - t489 * t573));
+  const Real t601 = t531 * t594 - (t528 * t588 - (t513 * t582 - (t492 * t573 + (Real(1.0) -
+      rear_contacts1bn0_z * t460))));
+  const Real t603 = model.rear_radius * q0r1_x - rear_contacts2bn0_z * t424;
+  const Real t612 = t463 * t603 + (rear_contacts2bn0_z * t448 + (q0r2_x * rear_contactc_x + (t150 + q0r0_x *
+      rear_contactc_z)));
+  const Real t618 = t495 * t612 - (rear_contacts2bn0_z * t453 + t485 * t603);
+  const Real t625 = t516 * t618 - (t510 * t612 - (t489 * t603 + (Real(1.0) + rear_contacts2bn0_z * t457)));
+  const Real t631 = t531 * t625 - (t528 * t618 - (t513 * t612 - (rear_contacts2bn0_z * t460 + t492 * t603)));
+  const Real t633 = t50 * t89 + t47 * t110;
+  const Real t635 = t77 * t383 + (t633 + t633);
+  const Real t646 = t424 * t635 - (t77 * t403 - (t50 * t132 + (t47 * t122 - (t49 * t89 + t48 * t110))));
+  const Real t657 = t463 * t646 - (t448 * t635 - (t77 * t409 - (t47 * t132 - (t50 * t122 - (t48 * t89 - t49 *
+      t110)))));
+  const Real t665 = t495 * t657 - (t485 * t646 - (t453 * t635 + (Real(1.0) - t77 * t414)));
+  const Real t672 = t516 * t665 - (t510 * t657 - (t489 * t646 + (t77 * t418 - t457 * t635)));
+  const Real t679 = t531 * t672 - (t528 * t665 - (t513 * t657 - (t492 * t646 + (t77 * t421 - t460 * t635))));
+  const Real t687 = front_contacts1bm_z * t383 + (front_contacts1bn3p_x * t373 + (front_contactbx2p_x * q0r0_y
+      + (front_contacts1bn0_z - front_contactbx3_x * q0r0_x)));
+  const Real t698 = t424 * t687 - (front_contacts1bm_z * t403 + (front_contacts1bn3p_x * t377 -
+      (front_contactbx2p_x * q0r0_z + (front_contacts1bn0_y + front_contactbx2p_z * q0r0_x))));
+  const Real t709 = t463 * t698 - (t448 * t687 - (front_contacts1bm_z * t409 + (front_contacts1bn3p_x * t380 -
+      (front_contactbx3_x * q0r0_z + (front_contacts1bn0_x + front_contactbx2p_z * q0r0_y)))));
+  const Real t716 = t495 * t709 - (t485 * t698 + (front_contacts1bm_z * t414 - t453 * t687));
+  const Real t723 = t516 * t716 - (t510 * t709 - (t489 * t698 + (front_contacts1bm_z * t418 - t457 * t687)));
+  const Real t731 = t531 * t723 - (t528 * t716 - (t513 * t709 - (t492 * t698 - (t460 * t687 - (Real(1.0) +
+      front_contacts1bm_z * t421)))));
+  const Real t739 = front_contacts2bm_z * t383 + (front_contacts2bn3p_x * t373 - (front_contactbx2p_x * q0r1_y
+      + (front_contacts2bn0_z + front_contactbx3_x * q0r1_x)));
+  const Real t750 = t424 * t739 - (front_contacts2bm_z * t403 + (front_contacts2bn3p_x * t377 -
+      (front_contactbx2p_x * q0r1_z + (front_contacts2bn0_y + front_contactbx2p_z * q0r1_x))));
+  const Real t761 = t463 * t750 - (t448 * t739 - (front_contacts2bm_z * t409 + (front_contacts2bn3p_x * t380 -
+      (front_contactbx3_x * q0r1_z - (front_contacts2bn0_x + front_contactbx2p_z * q0r1_y)))));
+  const Real t768 = t495 * t761 - (t485 * t750 + (front_contacts2bm_z * t414 - t453 * t739));
+  const Real t776 = t516 * t768 - (t510 * t761 - (t489 * t750 - (t457 * t739 - (Real(1.0) +
+      front_contacts2bm_z * t418))));
+  const Real t783 = t531 * t776 - (t528 * t768 - (t513 * t761 - (t492 * t750 + (front_contacts2bm_z * t421 -
+      t460 * t739))));
+  const Real t796 = t539 * t601;
+  const Real t797 = t530 * t594;
+  const Real t798 = t515 * t588;
+  const Real t799 = t494 * t582;
+  const Real t800 = t462 * t573;
+  const Real t801 = rear_contacts1bn0_z * t423;
+  const Real t812 = t138 * t801 - (t542 * t800 - (t552 * t799 - (t559 * t798 + (t571 * t796 - t565 * t797))));
+  const Real t822 = t539 * t631;
+  const Real t823 = t530 * t625;
+  const Real t824 = t515 * t618;
+  const Real t825 = t494 * t612;
+  const Real t826 = t462 * t603;
+  const Real t827 = rear_contacts2bn0_z * t423;
+  const Real t828 = rear_contacts2bn0_y * Real(8.333333333333334);
+  const Real t839 = t138 * t827 + (t542 * t826 - (t552 * t825 - (t559 * t824 + (t571 * t822 - t565 * t823))));
+  const Real t854 = t539 * t679;
+  const Real t855 = t530 * t672;
+  const Real t856 = t515 * t665;
+  const Real t857 = t494 * t657;
+  const Real t858 = t462 * t646;
+  const Real t859 = t423 * t635;
+  const Real t870 = t138 * t859 - (t542 * t858 - (t552 * t857 - (t559 * t856 + (t571 * t854 - t565 * t855))));
+  const Real t891 = t539 * t731;
+  const Real t892 = t530 * t723;
+  const Real t893 = t515 * t716;
+  const Real t894 = t494 * t709;
+  const Real t895 = t462 * t698;
+  const Real t896 = t423 * t687;
+  const Real t897 = front_contacts1bm_z * model.c30;
+  const Real t908 = t138 * t896 - (t542 * t895 - (t552 * t894 - (t559 * t893 + (t571 * t891 - t565 * t892))));
+  const Real t937 = t539 * t783;
+  const Real t938 = t530 * t776;
+  const Real t939 = t515 * t768;
+  const Real t940 = t494 * t761;
+  const Real t941 = t462 * t750;
+  const Real t942 = t423 * t739;
+  const Real t943 = front_contacts2bm_z * model.c30;
+  const Real t944 = front_contacts2bn3p_x * Real(3.571428571428571);
+  const Real t955 = t138 * t942 - (t542 * t941 - (t552 * t940 - (t559 * t939 + (t571 * t937 - t565 * t938))));
+  const Real t998 = Real(1.0) / (t138 * (t138 * t423) - (t542 * (t462 * t542) - (t552 * (t494 * t552) - (t559
+      * (t515 * t559) + (t571 * (t539 * t571) - t565 * (t530 * t565))))) + Real(1.8087085566416913e-12));
+  const Real t999 = t812 * t998;
+  const Real t1010 = t839 * t998;
+  const Real t1018 = t812 * t1010 + (rear_contacts1bn0_y * t828 - (rear_contacts1bn0_z * t827 + (t573 * t826 -
+      (t582 * t825 - (t588 * t824 + (t601 * t822 - t594 * t823))))));
+  const Real t1020 = t870 * t998;
+  const Real t1027 = t812 * t1020 - (rear_contacts1bn0_z * t859 - (t573 * t858 - (t582 * t857 - (t588 * t856 +
+      (t601 * t854 - t594 * t855)))));
+  const Real t1030 = t908 * t998;
+  const Real t1037 = t812 * t1030 - (rear_contacts1bn0_z * t896 - (t573 * t895 - (t582 * t894 - (t588 * t893 +
+      (t601 * t891 - t594 * t892)))));
+  const Real t1041 = t955 * t998;
+  const Real t1048 = t812 * t1041 - (rear_contacts1bn0_z * t942 - (t573 * t941 - (t582 * t940 - (t588 * t939 +
+      (t601 * t937 - t594 * t938)))));
+  const Real t1053 = Real(1.0) / (t812 * t999 - (rear_contacts1bn0_y * rear_contacts1bn0_y *
+      Real(8.333333333333334) + (rear_contacts1bn0_z * t801 - (t573 * t800 - (t582 * t799 - (t588 * t798 +
+      (t601 * t796 - t594 * t797)))))) - Real(7.806783314072456e-11));
+  const Real t1054 = t1018 * t1053;
+  const Real t1066 = t1027 * t1053;
+  const Real t1074 = t1018 * t1066 - (t839 * t1020 - (rear_contacts2bn0_z * t859 + (t603 * t858 - (t612 * t857
+      - (t618 * t856 + (t631 * t854 - t625 * t855))))));
+  const Real t1076 = t1037 * t1053;
+  const Real t1084 = t1018 * t1076 - (t839 * t1030 - (rear_contacts2bn0_z * t896 + (t603 * t895 - (t612 * t894
+      - (t618 * t893 + (t631 * t891 - t625 * t892))))));
+  const Real t1087 = t1048 * t1053;
+  const Real t1095 = t1018 * t1087 - (t839 * t1041 - (rear_contacts2bn0_z * t942 + (t603 * t941 - (t612 * t940
+      - (t618 * t939 + (t631 * t937 - t625 * t938))))));
+  const Real t1099 = Real(1.0) / (t1018 * t1054 - (t839 * t1010 - (rear_contacts2bn0_y * t828 +
+      (rear_contacts2bn0_z * t827 - (t603 * t826 - (t612 * t825 - (t618 * t824 + (t631 * t822 - t625 *
+      t823))))))) + Real(8.816994788327498e-12));
+  const Real t1100 = t1074 * t1099;
+  const Real t1113 = t1084 * t1099;
+  const Real t1123 = t1074 * t1113 - (t1027 * t1076 - (t870 * t1030 + (t77 * t897 - (t635 * t896 - (t646 *
+      t895 - (t657 * t894 - (t665 * t893 + (t679 * t891 - t672 * t892))))))));
+  const Real t1125 = t1095 * t1099;
+  const Real t1135 = t1074 * t1125 - (t1027 * t1087 - (t870 * t1041 + (t77 * t943 - (t635 * t942 - (t646 *
+      t941 - (t657 * t940 - (t665 * t939 + (t679 * t937 - t672 * t938))))))));
+  const Real t1138 = Real(1.0) / (t1074 * t1100 - (t1027 * t1066 - (t870 * t1020 + (model.c30 * (t77 * t77) -
+      (t635 * t859 - (t646 * t858 - (t657 * t857 - (t665 * t856 + (t679 * t854 - t672 * t855)))))))) -
       Real(3.988016169236579e-12));
-  const Real t1171 = t1155 * t1170;
-  const Real t1186 = t1167 * t1170;
-  const Real t1198 = t753 * t970 + (t761 * t969 - (t745 * t971 + (t737 * t972 + (t726 * t973 - (t715 * t974 -
-      (front_contacts1bm_z * t975 + (front_contacts1bn3p_x * t976 + (t940 * t1073 + (t1069 * t1119 + (t1116 *
-      t1157 + t1155 * t1186))))))))));
-  const Real t1200 = Real(1.0) / (t753 * t924 + (t761 * t923 - (t745 * t925 + (t737 * t926 + (t726 * t927 -
-      (t715 * t928 - (front_contacts1bm_z * t929 - (Real(3.571428571428571) * (front_contacts1bn3p_x *
-      front_contacts1bn3p_x) - (t940 * t1062 + (t1069 * t1108 + (t1116 * t1145 + t1155 * t1171)))))))))) +
+  const Real t1139 = t1123 * t1138;
+  const Real t1154 = t1135 * t1138;
+  const Real t1166 = t1123 * t1154 - (t1084 * t1125 - (t1037 * t1087 - (t908 * t1041 - (front_contacts1bn3p_x
+      * t944 - (front_contacts1bm_z * t943 - (t687 * t942 - (t698 * t941 - (t709 * t940 - (t716 * t939 + (t731
+      * t937 - t723 * t938))))))))));
+  const Real t1168 = Real(1.0) / (t1123 * t1139 - (t1084 * t1113 - (t1037 * t1076 - (t908 * t1030 -
+      (Real(3.571428571428571) * (front_contacts1bn3p_x * front_contacts1bn3p_x) - (front_contacts1bm_z * t897
+      - (t687 * t896 - (t698 * t895 - (t709 * t894 - (t716 * t893 + (t731 * t891 - t723 * t892)))))))))) +
       Real(4.6476630875276904e-11));
-  const Real t1201 = t1198 * t1200;
-  const Real t1217 = Real(1.0) / (t807 * t970 + (t815 * t969 - (t799 * t971 + (t791 * t972 + (t780 * t973 -
-      (t769 * t974 - (front_contacts2bm_z * t975 - (front_contacts2bn3p_x * t976 - (t987 * t1073 + (t1080 *
-      t1119 + (t1127 * t1157 + (t1167 * t1186 + t1198 * t1201))))))))))) + Real(2.7054786900152528e-11));
-  const Real t1224 = q0d2 * t49 - (q0d3 * t50 + (state.y[3] * state.y[3] - q0d1 * t48));
-  const Real t1233 = t49 * state.z[4] + (t48 * state.z[3] + t50 * state.z[5]);
-  const Real t1238 = t50 * state.z[4] - (t47 * state.z[3] + t49 * state.z[5]);
-  const Real t1243 = t47 * state.z[4] + (t50 * state.z[3] - t48 * state.z[5]);
-  const Real t1263 = Real(2.0) * t1238;
-  const Real t1266 = q0d1 * t1263;
-  const Real t1268 = Real(2.0) * t1243;
-  const Real t1270 = q0d2 * t1268;
-  const Real t1273 = q0d2 * t1238 - state.y[4] * t1268;
-  const Real t1274 = Real(2.0) * (t48 * state.z[4] - (t49 * state.z[3] - t47 * state.z[5]));
-  const Real t1276 = q0d3 * t1243 + state.y[5] * t1274;
-  const Real t1278 = q0d3 * t1238 - state.y[4] * t1274;
-  const Real t1279 = q0d3 * t1274;
-  const Real t1282 = state.y[3] * t1263 + q0d1 * t1233;
-  const Real t1284 = state.y[3] * t1268 - q0d2 * t1233;
-  const Real t1286 = state.y[3] * t1274 - q0d3 * t1233;
-  const Real t1287 = t1276 - t1282;
-  const Real t1288 = t1276 + t1282;
-  const Real t1290 = Real(2.0) * t1287;
-  const Real t1300 = t1266 - t1270;
-  const Real t1310 = t82 * t1287;
-  const Real t1311 = t52 * t53 * t1310;
-  const Real t1315 = t1278 + t1284;
-  const Real t1316 = t1278 - t1284;
-  const Real t1326 = s2 * state.z[7];
-  const Real t1327 = c2 * state.z[7];
-  const Real t1328 = model.r_front_y * t1326;
-  const Real t1337 = model.r_front_y * t1327;
-  const Real t1338 = Real(0.9510565162951535) * t1327;
-  const Real t1339 = Real(0.3090169943749474) * t1327;
-  const Real t1351 = Real(0.9510565162951535) * t1328;
-  const Real t1352 = Real(0.3090169943749474) * t1328;
-  const Real t1373 = front_contactbd2p_x * t1315 - q0r2_x * t1338;
-  const Real t1377 = q0r2_z * t1339 - (front_contactbd2p_z * t1300 + (c2 * t1287 - (q0r2_y * t1326 - t1373)));
-  const Real t1378 = t54 * t1377;
-  const Real t1381 = t56 * t1378;
-  const Real t1382 = model.front_radius * t1378;
-  const Real t1385 = t55 * front_contactc_z * t1381;
-  const Real t1414 = Real(2.0) * (t58 * t1377) + model.front_radius * (t54 * (t55 * t56 * t1381));
-  const Real t1419 = q0r2_x * t1414;
-  const Real t1423 = t59 * t1338 - (t1351 + front_contactbd2p_x * t1414);
-  const Real t1472 = t1266 - t1279;
-  const Real t1473 = t1273 + t1286;
-  const Real t1474 = t1273 - t1286;
-  const Real t1475 = t1270 + t1279;
-  const Real t1486 = model.rear_radius * t1473;
-  const Real t1509 = q0r1_x * t1475 - q0r0_x * t1474;
-  const Real t1521 = q0r1_y * t1473 + q0r0_y * t1472;
-  const Real t1524 = q0r1_y * t1287 - q0r2_y * t1472;
-  const Real t1532 = q0r1_z * t1316 - q0r0_z * t1288;
-  const Real t1543 = t52 * rear_contactc_y * t1310 + model.rear_radius * (t52 * t1524);
-  const Real t1548 = t52 * rear_contactc_z * t1310 - t84 * t1290;
-  const Real t1555 = s2 * state.z[8];
-  const Real t1557 = state.z[4] + c2 * state.z[8];
-  const Real t1562 = Real(0.3090169943749474) * state.z[7] + (state.z[3] - Real(0.9510565162951535) * t1555);
-  const Real t1565 = Real(0.9510565162951535) * state.z[7] + (state.z[5] + Real(0.3090169943749474) * t1555);
-  const Real t1572 = q0r2_y * t1557 - (q0r2_z * t1565 - q0r2_x * t1562);
-  const Real t1575 = q0r0_y * t1557 + (q0r0_z * t1565 - q0r0_x * t1562);
-  const Real t1576 = t55 * t1572;
-  const Real t1580 = t59 * t1572;
-  const Real t1585 = q0r1_y * t1557 - (q0r1_z * t1565 + q0r1_x * t1562);
-  const Real t1595 = state.z[4] + state.z[6];
-  const Real t1602 = q0r2_y * t1595 - (q0r2_z * state.z[5] - q0r2_x * state.z[3]);
-  const Real t1603 = t52 * t1602;
-  const Real t1607 = state.z[0] * t1532;
-  const Real t1608 = state.z[0] * t1521;
-  const Real t1609 = state.z[0] * t1509;
+  const Real t1169 = t1166 * t1168;
+  const Real t1185 = Real(1.0) / (t1166 * t1169 - (t1135 * t1154 - (t1095 * t1125 - (t1048 * t1087 - (t955 *
+      t1041 - (front_contacts2bn3p_x * t944 - (front_contacts2bm_z * t943 - (t739 * t942 - (t750 * t941 -
+      (t761 * t940 - (t768 * t939 + (t783 * t937 - t776 * t938))))))))))) - Real(2.7054786900152528e-11));
+  const Real t1192 = q0d1 * t48 - (state.y[3] * state.y[3] + (q0d3 * t50 - q0d2 * t49));
+  const Real t1201 = t50 * state.z[5] + (t48 * state.z[3] + t49 * state.z[4]);
+  const Real t1206 = t49 * state.z[5] + (t47 * state.z[3] - t50 * state.z[4]);
+  const Real t1211 = t48 * state.z[5] - (t50 * state.z[3] + t47 * state.z[4]);
+  const Real t1225 = Real(2.0) * t1206;
+  const Real t1228 = q0d1 * t1225;
+  const Real t1230 = Real(2.0) * t1211;
+  const Real t1232 = q0d2 * t1230;
+  const Real t1235 = q0d2 * t1206 - state.y[4] * t1230;
+  const Real t1236 = Real(2.0) * (t47 * state.z[5] - (t49 * state.z[3] - t48 * state.z[4]));
+  const Real t1238 = q0d3 * t1211 - state.y[5] * t1236;
+  const Real t1240 = q0d3 * t1206 + state.y[4] * t1236;
+  const Real t1241 = q0d3 * t1236;
+  const Real t1244 = state.y[3] * t1225 - q0d1 * t1201;
+  const Real t1246 = state.y[3] * t1230 + q0d2 * t1201;
+  const Real t1248 = state.y[3] * t1236 - q0d3 * t1201;
+  const Real t1249 = t1238 - t1244;
+  const Real t1250 = t1238 + t1244;
+  const Real t1251 = t51 * t1249;
+  const Real t1253 = Real(2.0) * t1249;
+  const Real t1262 = t1228 - t1232;
+  const Real t1268 = t53 * t1251;
+  const Real t1269 = model.rear_radius * t1251;
+  const Real t1270 = t52 * t53 * t1268;
+  const Real t1272 = t52 * rear_contactc_z * t1268;
+  const Real t1274 = t1240 + t1246;
+  const Real t1275 = t1240 - t1246;
+  const Real t1281 = s2 * state.z[7];
+  const Real t1282 = c2 * state.z[7];
+  const Real t1283 = model.r_front_y * t1281;
+  const Real t1292 = model.r_front_y * t1282;
+  const Real t1293 = Real(0.9510565162951535) * t1282;
+  const Real t1294 = Real(0.3090169943749474) * t1282;
+  const Real t1305 = Real(0.9510565162951535) * t1283;
+  const Real t1306 = Real(0.3090169943749474) * t1283;
+  const Real t1331 = q0r2_x * t1293 + (front_contactbd2p_x * t1274 + (q0r2_y * t1281 + (c2 * t1249 +
+      (front_contactbd2p_z * t1262 + q0r2_z * t1294))));
+  const Real t1332 = t54 * t1331;
+  const Real t1335 = t56 * t1332;
+  const Real t1336 = model.front_radius * t1332;
+  const Real t1339 = t55 * front_contactc_z * t1335;
+  const Real t1369 = Real(2.0) * (t58 * t1331) + model.front_radius * (t54 * (t55 * t56 * t1335));
+  const Real t1374 = q0r2_x * t1369;
+  const Real t1378 = front_contactbd2p_x * t1369 + (t1305 + t59 * t1293);
+  const Real t1425 = t1292 + (front_contactbx2p_x * state.z[5] + front_contactbx2p_z * state.z[3]);
+  const Real t1426 = s2 * state.z[8];
+  const Real t1428 = state.z[4] + c2 * state.z[8];
+  const Real t1433 = Real(0.9510565162951535) * t1426 - (state.z[3] + Real(0.3090169943749474) * state.z[7]);
+  const Real t1436 = Real(0.3090169943749474) * t1426 + (state.z[5] + Real(0.9510565162951535) * state.z[7]);
+  const Real t1447 = q0r2_x * t1433 + (q0r2_z * t1436 - q0r2_y * t1428);
+  const Real t1452 = q0r0_x * t1433 - (q0r0_z * t1436 + q0r0_y * t1428);
+  const Real t1454 = t1305 + (front_contactbx3_x * state.z[5] + front_contactbx2p_z * state.z[4]);
+  const Real t1456 = t1306 - (front_contactbx2p_x * state.z[4] - front_contactbx3_x * state.z[3]);
+  const Real t1457 = t55 * t1447;
+  const Real t1461 = t59 * t1447;
+  const Real t1463 = front_contactc_z * t1436 + front_contactbd2p_z * t1461;
+  const Real t1465 = front_contactc_z * t1428 + c2 * t1461;
+  const Real t1467 = front_contactc_z * t1433 + front_contactbd2p_x * t1461;
+  const Real t1475 = q0r1_x * t1433 - (q0r1_z * t1436 - q0r1_y * t1428);
+  const Real t1485 = state.z[4] + state.z[6];
+  const Real t1486 = model.rear_radius * state.z[4];
+  const Real t1489 = rear_contactc_z * state.z[5];
+  const Real t1495 = q0r2_x * state.z[3] - (q0r2_z * state.z[5] - q0r2_y * t1485);
+  const Real t1496 = rear_contactc_z * state.z[3];
+  const Real t1499 = q0r0_x * state.z[3] + (q0r0_z * state.z[5] + q0r0_y * t1485);
+  const Real t1500 = t52 * t1495;
+  const Real t1506 = model.rear_radius * state.z[3];
+  const Real t1508 = rear_contactc_z * t1485 + t84 * t1495;
+  const Real t1513 = q0r1_x * state.z[3] + (q0r1_z * state.z[5] - q0r1_y * t1485);
+  const Real t1530 = t1496 - t1506;
+  const Real t1532 = t1486 - t1508;
+  const Real t1534 = t1425 + t1467;
+  const Real t1536 = t1454 - t1465;
   const Real w2p_y = Real(0.3090169943749474) * state.z[5] - Real(0.9510565162951535) * state.z[3];
   const Real w2p_z = Real(0.3090169943749474) * state.z[3] + Real(0.9510565162951535) * state.z[5];
   const Real w2_z = state.z[7] + w2p_z;
@@ -2619,10 +2571,10 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real rfallW_x = q0r2_x * Real(9.81);
   const Real rfallW_y = q0r2_y * Real(9.81);
   const Real rfallW_z = q0r2_z * Real(9.81);
-  const Real rSu0_x = state.z[4] * S2c_xy - (state.z[3] * S1c_xx - state.z[5] * S2c_xz);
-  const Real rSu0_y = state.z[4] * S2c_yy + (state.z[3] * S2c_xy - state.z[5] * S2c_yz);
-  const Real rSu0_z = state.z[4] * S2c_yz - (state.z[3] * S2c_xz + state.z[5] * S1c_zz);
-  const Real ruh0 = state.z[4] * h2b_x + (state.z[3] * h2c_x - state.z[5] * h2c_z);
+  const Real rSu0_x = state.z[5] * S2c_xz - (state.z[3] * S1c_xx + state.z[4] * S2c_xy);
+  const Real rSu0_y = state.z[5] * S2c_yz - (state.z[3] * S2c_xy - state.z[4] * S2c_yy);
+  const Real rSu0_z = state.z[5] * S1c_zz - (state.z[3] * S2c_xz + state.z[4] * S2c_yz);
+  const Real ruh0 = state.z[5] * h2c_z - (state.z[3] * h2c_x + state.z[4] * h2b_x);
   const Real rL0w00 = state.z[3] * state.z[3];
   const Real rL0w11 = state.z[4] * state.z[4];
   const Real rL0U2_z = rL0w00 + rL0w11;
@@ -2635,12 +2587,12 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real rL0w02 = state.z[3] * state.z[5];
   const Real rL0w12 = state.z[4] * state.z[5];
   const Real rL0U0_x = rL0w11 + rL0w22;
-  const Real ra2o_x = model.r_steer_x * rL0U0_x + (rfallW_x + model.r_steer_z * rL0w02);
-  const Real ra2o_y = model.r_steer_x * rL0w01 - (rfallW_y + model.r_steer_z * rL0w12);
-  const Real ra2o_z = model.r_steer_x * rL0w02 + (rfallW_z + model.r_steer_z * rL0U2_z);
+  const Real ra2o_x = model.r_steer_z * rL0w02 + (rfallW_x + model.r_steer_x * rL0U0_x);
+  const Real ra2o_y = model.r_steer_z * rL0w12 + (rfallW_y - model.r_steer_x * rL0w01);
+  const Real ra2o_z = model.r_steer_z * rL0U2_z + (rfallW_z + model.r_steer_x * rL0w02);
   const Real ra2_y = Real(0.3090169943749474) * ra2o_z + Real(0.9510565162951535) * ra2o_x;
-  const Real rKx2 = S2b_xy * w2p_y - (state.z[4] * S2b_xx - S2b_xz * w2p_z);
-  const Real rKy2 = S2b_yz * w2p_z - (state.z[4] * S2b_xy + S2b_yy * w2p_y);
+  const Real rKx2 = S2b_xz * w2p_z - (state.z[4] * S2b_xx - S2b_xy * w2p_y);
+  const Real rKy2 = S2b_yy * w2p_y + (state.z[4] * S2b_xy - S2b_yz * w2p_z);
   const Real z2_2 = Real(2.0) * state.z[7];
   const Real zz_2 = state.z[7] * state.z[7];
   const Real zw_2 = state.z[7] * (w2p_z + w2_z);
@@ -2654,124 +2606,109 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real rdn3_y = rKx3 * z2_3;
   const Real rn2b_x = s2 * rdn3_x;
   const Real rn2b_y = c2 * rdn3_x;
-  const Real rn2_y = rKx2 * z2_2 + (S2b_xz * zz_2 - rn2b_y);
+  const Real rn2_y = rn2b_y - (S2b_xz * zz_2 + rKx2 * z2_2);
   const Real rf2p_x = Real(0.3090169943749474) * rdf2_z - Real(0.9510565162951535) * rdf2_y;
   const Real rf2p_z = Real(0.3090169943749474) * rdf2_y + Real(0.9510565162951535) * rdf2_z;
-  const Real rf0_x = h2c_x * ruw0 - (state.z[3] * ruh0 + rf2p_x);
-  const Real rf0_y = h2b_x * ruw0 - (state.z[4] * ruh0 - rdf2_x);
-  const Real rf0_z = h2c_z * ruw0 + (state.z[5] * ruh0 + rf2p_z);
-  const Real tau_2_0 = h2b_x * ra2_y + (state.z[4] * rKy2 + (h2b_y * ra2o_y + (w2p_y * rKx2 + (rdn3_y -
-      input.u[0]))));
-  const Real t1779 = state.z[4] * rSu0_x - (state.z[3] * rSu0_y + (h2b_x * rfallW_x - (h2c_x * rfallW_y -
-      (rdn1_x - (Real(0.3090169943749474) * rn2_y - (Real(0.9510565162951535) * rdn3_y - (model.r_steer_x *
-      rdf2_x - (t397 * rQp3 + t407 * tau_2_0))))))));
-  const Real t1796 = state.z[5] * rSu0_x + (state.z[3] * rSu0_z - (h2c_x * rfallW_z - (h2c_z * rfallW_x -
-      (S2b_yz * zz_2 + (rKy2 * z2_2 + (rn2b_x + (model.r_steer_x * rf2p_z + (model.r_steer_z * rf2p_x - (t401
-      * rQp3 - (t427 * tau_2_0 + t448 * t1779))))))))));
-  const Real t1812 = state.z[5] * rSu0_y + (state.z[4] * rSu0_z - (h2b_x * rfallW_z - (h2c_z * rfallW_y +
-      (rdn1_y - (Real(0.3090169943749474) * rdn3_y + (Real(0.9510565162951535) * rn2_y - (model.r_steer_z *
-      rdf2_x + (t404 * rQp3 + (t433 * tau_2_0 - (t472 * t1779 + t487 * t1796))))))))));
-  const Real t1824 = q0r2_y * rf0_y + (q0r2_x * rf0_x + (q0r2_z * rf0_z - (t438 * tau_2_0 + (t477 * t1779 +
-      (t509 * t1796 + t519 * t1812))))) + Real(922.1400000000001);
-  const Real t1834 = q0r1_y * rf0_y - (q0r1_x * rf0_x - (q0r1_z * rf0_z - (t442 * tau_2_0 + (t481 * t1779 +
-      (t513 * t1796 + (t534 * t1812 + t540 * t1824))))));
-  const Real t1845 = t563 * (q0r0_y * rf0_y - (q0r0_x * rf0_x + (q0r0_z * rf0_z + (t445 * tau_2_0 + (t484 *
-      t1779 - (t516 * t1796 + (t537 * t1812 - (t552 * t1824 - t555 * t1834))))))));
-  const Real t1846 = t554 * t1834;
-  const Real t1847 = t539 * t1824;
-  const Real t1848 = t518 * t1812;
-  const Real t1849 = t486 * t1796;
-  const Real t1850 = t447 * t1779;
-  const Real t1851 = model.c30 * tau_2_0;
-  const Real t1852 = Real(3.571428571428571) * rQp3;
-  const Real t1902 = t589 * t1846 - (t595 * t1845 - (t583 * t1847 + (t576 * t1848 + (t566 * t1849 + (t138 *
-      t1850 - model.rear_radius * (state.z[4] * t1315 + (state.z[3] * (t53 * (t1224 * t1290 - t51 * t1300) +
-      (t1287 + t51 * t1224 * t1311)) + state.z[5] * (q0r2_x * t51 * t1311 + t53 * (q0r2_x * t1290 - t51 *
-      t1315)))))))));
-  const Real t1927 = state.z[0] * ((q0r0_z + q0r0_z) * t1316 - ((q0r0_x + q0r0_x) * t1475 - (q0r0_y + q0r0_y)
-      * t1473)) + (state.z[1] * (t1532 + (t1509 - t1521)) - state.z[2] * (q0r0_y * t1287 - q0r2_y * t1473 +
-      (q0r0_x * t1315 - q0r2_x * t1475 + (q0r0_z * t1300 + q0r2_z * t1316))));
-  const Real t1938 = t1927 - (model.rear_radius * (state.z[4] * t1475) - (t627 * t1845 + (t620 * t1846 - (t613
-      * t1847 + (t606 * t1848 + (t597 * t1849 + (rear_contacts1bn0_z * t1850 + (t1031 * t1902 - (t1595 *
-      (q0r1_y * t1548 - (rear_contactc_z * t1472 - (rear_contactc_y * t1287 + q0r2_y * t1543))) + (state.z[3]
-      * (q0r2_x * t1543 - (rear_contactc_y * t1315 - (t1486 + (rear_contactc_z * t1474 - q0r1_x * t1548)))) -
-      state.z[5] * (q0r1_z * t1548 + (rear_contactc_z * t1288 - (rear_contactc_y * t1300 - q0r2_z *
-      t1543)))))))))))));
-  const Real t1960 = state.z[1] * ((q0r1_z + q0r1_z) * t1288 - ((q0r1_x + q0r1_x) * t1474 + (q0r1_y + q0r1_y)
-      * t1472)) - state.z[2] * (t1524 + (q0r1_x * t1315 + q0r2_x * t1474 - (q0r1_z * t1300 - q0r2_z *
-      t1288)));
-  const Real t1978 = t1960 + (model.rear_radius * (state.z[4] * t1474) - (t52 * rear_contactc_x * t1310 *
-      t1602 + (t161 * t1287 * t1603 + (t1607 - (t1608 - (t1609 - (t1486 * (q0r2_y * t1603) + (t659 * t1845 +
-      (t652 * t1846 - (t645 * t1847 + (t638 * t1848 + (t629 * t1849 + (rear_contacts2bn0_z * t1850 + (t1042 *
-      t1902 + (t1086 * t1938 + (t1595 * (q0r0_y * t1548 + (rear_contactc_x * t1287 - rear_contactc_z * t1473))
-      - (state.z[3] * (model.rear_radius * t1472 + (rear_contactc_x * t1315 + (rear_contactc_z * t1475 +
-      q0r0_x * t1548))) - state.z[5] * (q0r0_z * t1548 + (rear_contactc_x * t1300 - rear_contactc_z *
-      t1316)))))))))))))))))));
-  const Real t1995 = state.z[4] * (front_contactbx2p_z * t1315 + (q0r2_x * t1352 + (t1224 * t1423 +
-      (front_contactbd2p_z * t1419 + (t59 * t1373 * Real(0.3249196962329063) - t66 * t1300))))) + (state.z[3]
-      * (front_contactbx3_x * t1300 - (t1224 * t1337 + (q0r2_y * t1352 - (front_contactbx2p_z * t1287 + (t59 *
-      (front_contactbd2p_z * t1287 + (q0r2_y * t1339 - (t1224 * t1326 + c2 * t1300))) - t1414 * (c2 * t1224 +
-      q0r2_y * front_contactbd2p_z)))))) - (state.z[7] * (s2 * (q0r2_y * t1414 - (t59 * t1287 +
-      model.r_front_y * (Real(0.3090169943749474) * t1300 + Real(0.9510565162951535) * t1315))) - (t71 * t1327
-      - (t74 * t1326 + c2 * (Real(0.3090169943749474) * (t59 * t1300 + q0r2_z * t1414) - (model.r_front_y *
-      t1287 - Real(0.9510565162951535) * (t59 * t1315 + t1419)))))) - (state.z[5] * (front_contactbx3_x *
-      t1315 - (q0r2_x * t1337 - (q0r2_y * t1423 - (c2 * t1419 + (t59 * (q0r2_x * t1326 + c2 * t1315) - t66 *
-      t1287))))) - (t707 * t1845 + (t700 * t1846 + (t693 * t1847 - (t685 * t1848 + (t674 * t1849 + (t663 *
-      t1850 + (t77 * t1851 + (t1052 * t1902 + (t1098 * t1938 + t1132 * t1978))))))))))));
-  const Real t2055 = t1382 * (t55 * t1585) - (t1385 * t1585 + (t55 * front_contactc_y * t1381 * t1572 +
-      (model.front_radius * (front_contactbd0p_y * t1377 * t1576) - (t1927 - (t761 * t1845 + (t753 * t1846 -
-      (t745 * t1847 + (t737 * t1848 - (t726 * t1849 + (t715 * t1850 + (front_contacts1bm_z * t1851 -
-      (front_contacts1bn3p_x * t1852 + (t1062 * t1902 + (t1108 * t1938 + (t1145 * t1978 - (t1171 * t1995 -
-      (t1565 * (front_contactc_y * t1300 - front_contactc_z * t1288) - (t1562 * (front_contactc_y * t1315 -
-      front_contactc_z * t1474) - (t1557 * (front_contactc_y * t1287 - front_contactc_z * t1472) - (t1328 *
-      (Real(0.9510565162951535) * t1475 - Real(0.3090169943749474) * t1316) + (state.z[8] *
-      (front_contacts1bn0_y * t1326 + front_contacts1bn2_y * t1327) - (state.z[7] * (front_contactbx3_y *
-      t1473 - (front_contacts1bf2_y * t1337 - q0r0_y * t1328)) + (state.z[5] * (front_contactbx2p_x * t1473 +
-      (q0r0_y * t1351 - (q0r0_x * t1337 + front_contactbx3_x * t1475))) - (state.z[4] * (front_contactbx2p_x *
-      t1316 + (q0r0_z * t1351 - (q0r0_x * t1352 - front_contactbx2p_z * t1475))) + (t1580 *
-      (front_contactbd2p_z * t1288 + (q0r1_z * t1339 + (c2 * t1472 + (q0r1_y * t1326 - (q0r1_x * t1338 -
-      front_contactbd2p_x * t1474))))) - state.z[3] * (front_contactbx3_x * t1316 - (q0r0_z * t1337 - (q0r0_y
-      * t1352 + front_contactbx2p_z * t1473))))))))))))))))))))))))))));
-  const Real t2124 = t1217 * (model.front_radius * (front_contactbd0p_x * t1377 * t1576) + (t55 *
-      front_contactc_x * t1381 * t1572 + (t1385 * t1575 - (t1382 * (t55 * t1575) - (t1960 - (t1607 - (t1608 -
-      (t1609 + (t815 * t1845 + (t807 * t1846 - (t799 * t1847 + (t791 * t1848 - (t780 * t1849 + (t769 * t1850 +
-      (front_contacts2bm_z * t1851 + (front_contacts2bn3p_x * t1852 - (t1073 * t1902 + (t1119 * t1938 + (t1157
-      * t1978 - (t1186 * t1995 + (t1201 * t2055 + (t1565 * (front_contactc_x * t1300 - front_contactc_z *
-      t1316) - (t1562 * (front_contactc_x * t1315 + front_contactc_z * t1475) - (t1557 * (front_contactc_x *
-      t1287 - front_contactc_z * t1473) - (t1328 * (Real(0.9510565162951535) * t1474 +
-      Real(0.3090169943749474) * t1288) + (state.z[8] * (front_contacts2bn0_y * t1326 - front_contacts2bn2_y *
-      t1327) + (state.z[7] * (front_contactbx3_y * t1472 + (front_contacts2bf2_y * t1337 + q0r1_y * t1328)) +
-      (state.z[5] * (front_contactbx2p_x * t1472 + (q0r1_y * t1351 - (q0r1_x * t1337 - front_contactbx3_x *
-      t1474))) - (state.z[4] * (front_contactbx2p_x * t1288 - (q0r1_z * t1351 + (q0r1_x * t1352 +
-      front_contactbx2p_z * t1474))) - (t1580 * (front_contactbd2p_z * t1316 - (q0r0_z * t1339 - (c2 * t1473 +
-      (q0r0_y * t1326 - (q0r0_x * t1338 + front_contactbd2p_x * t1475))))) + state.z[3] * (front_contactbx3_x
-      * t1288 + (q0r1_z * t1337 + (q0r1_y * t1352 + front_contactbx2p_z *
-      t1472)))))))))))))))))))))))))))))))));
-  const Real t2126 = t1200 * t2055 - t1201 * t2124;
-  const Real t2130 = t1171 * t2126 - (t1170 * t1995 - t1186 * t2124);
-  const Real t2136 = t1132 * t2130 - (t1131 * t1978 + (t1145 * t2126 + t1157 * t2124));
-  const Real t2144 = t1086 * t2136 + (t1085 * t1938 - (t1098 * t2130 - (t1108 * t2126 + t1119 * t2124)));
-  const Real t2154 = t1031 * t2144 - (t1030 * t1902 + (t1042 * t2136 - (t1052 * t2130 - (t1062 * t2126 + t1073
-      * t2124))));
-  const Real t2155 = Real(1.8087085566416913e-12) * t2154;
-  const Real t2162 = Real(7.806783314072456e-11) * t2144 + t1031 * t2155;
-  const Real t2169 = t1042 * t2155 - (Real(8.816994788327498e-12) * t2136 + t1086 * t2162);
-  const Real t2176 = t1052 * t2155 + (Real(3.988016169236579e-12) * t2130 - (t1098 * t2162 + t1132 * t2169));
-  const Real t2183 = t1062 * t2155 - (Real(4.6476630875276904e-11) * t2126 + (t1108 * t2162 + (t1145 * t2169 +
-      t1171 * t2176)));
-  const Real t2196 = t1217 * (t1073 * t2155 - (Real(2.7054786900152528e-11) * t2124 + (t1119 * t2162 + (t1157
-      * t2169 + (t1186 * t2176 + t1201 * t2183)))));
-  const Real t2198 = t1200 * t2183 - t1201 * t2196;
-  const Real t2202 = t1171 * t2198 - (t1170 * t2176 - t1186 * t2196);
-  const Real t2208 = t1132 * t2202 + (t1131 * t2169 - (t1145 * t2198 + t1157 * t2196));
-  const Real t2216 = t1086 * t2208 - (t1085 * t2162 + (t1098 * t2202 - (t1108 * t2198 + t1119 * t2196)));
-  lambda[0] = -(t1030 * t2155 + (t2154 - (t1031 * t2216 - (t1042 * t2208 - (t1052 * t2202 - (t1062 * t2198 +
-      t1073 * t2196))))));
-  lambda[1] = -(t2144 - t2216);
-  lambda[2] = t2136 - t2208;
-  lambda[3] = t2130 - t2202;
-  lambda[4] = -(t2126 - t2198);
-  lambda[5] = -(t2124 - t2196);
+  const Real rf0_x = rf2p_x - (state.z[3] * ruh0 + h2c_x * ruw0);
+  const Real rf0_y = rdf2_x + (state.z[4] * ruh0 + h2b_x * ruw0);
+  const Real rf0_z = rf2p_z - (state.z[5] * ruh0 - h2c_z * ruw0);
+  const Real tau_2_0 = input.u[0] - (rdn3_y + (w2p_y * rKx2 - (h2b_y * ra2o_y + (state.z[4] * rKy2 - h2b_x *
+      ra2_y))));
+  const Real t1719 = t383 * tau_2_0 - (t373 * rQp3 - (model.r_steer_x * rdf2_x - (Real(0.9510565162951535) *
+      rdn3_y + (Real(0.3090169943749474) * rn2_y + (rdn1_x - (h2c_x * rfallW_y - (h2b_x * rfallW_x +
+      (state.z[3] * rSu0_y - state.z[4] * rSu0_x))))))));
+  const Real t1736 = t424 * t1719 - (t403 * tau_2_0 - (t377 * rQp3 - (model.r_steer_z * rf2p_x +
+      (model.r_steer_x * rf2p_z + (rn2b_x - (rKy2 * z2_2 - (S2b_yz * zz_2 - (h2c_z * rfallW_x - (h2c_x *
+      rfallW_z - (state.z[3] * rSu0_z + state.z[5] * rSu0_x))))))))));
+  const Real t1752 = t463 * t1736 - (t448 * t1719 - (t409 * tau_2_0 - (t380 * rQp3 + (model.r_steer_z * rdf2_x
+      + (Real(0.9510565162951535) * rn2_y - (Real(0.3090169943749474) * rdn3_y - (rdn1_y + (h2c_z * rfallW_y -
+      (h2b_x * rfallW_z - (state.z[4] * rSu0_z + state.z[5] * rSu0_y))))))))));
+  const Real t1764 = t495 * t1752 - (t485 * t1736 - (t453 * t1719 - (t414 * tau_2_0 - (q0r2_z * rf0_z -
+      (q0r2_x * rf0_x - q0r2_y * rf0_y))))) + Real(922.1400000000001);
+  const Real t1774 = t516 * t1764 - (t510 * t1752 - (t489 * t1736 - (t457 * t1719 - (t418 * tau_2_0 - (q0r1_z
+      * rf0_z + (q0r1_x * rf0_x + q0r1_y * rf0_y))))));
+  const Real t1785 = t539 * (t531 * t1774 - (t528 * t1764 - (t513 * t1752 - (t492 * t1736 - (t460 * t1719 -
+      (t421 * tau_2_0 - (q0r0_z * rf0_z + (q0r0_x * rf0_x - q0r0_y * rf0_y))))))));
+  const Real t1786 = t530 * t1774;
+  const Real t1787 = t515 * t1764;
+  const Real t1788 = t494 * t1752;
+  const Real t1789 = t462 * t1736;
+  const Real t1790 = t423 * t1719;
+  const Real t1791 = model.c30 * tau_2_0;
+  const Real t1792 = Real(3.571428571428571) * rQp3;
+  const Real t1842 = model.rear_radius * (state.z[5] * (q0r2_x * t51 * t1270 + t53 * (q0r2_x * t1253 - t51 *
+      t1274)) + (state.z[3] * (t1249 + (t51 * t1192 * t1270 + t53 * (t1192 * t1253 - t51 * t1262))) +
+      state.z[4] * t1274)) - (t138 * t1790 - (t542 * t1789 - (t552 * t1788 - (t559 * t1787 + (t571 * t1785 -
+      t565 * t1786)))));
+  const Real t1861 = t999 * t1842 + (rear_contacts1bn0_z * t1790 - (t573 * t1789 - (t582 * t1788 - (t588 *
+      t1787 - (t594 * t1786 - (t601 * t1785 - (t1241 * t1532 + (t1235 * (t1496 + t1506) + (t1248 * t1530 -
+      (t1232 * t1486 + (t1228 * t1508 + (t1250 * t1489 - (t150 * t1249 * t1500 + (t52 * rear_contactc_y *
+      t1268 * t1495 + (t1269 * (t52 * t1513) - (t1272 * t1513 - state.z[6] * (rear_contactc_y *
+      t1249)))))))))))))))));
+  const Real t1885 = t1054 * t1861 - (t1010 * t1842 + (rear_contacts2bn0_z * t1790 + (t603 * t1789 - (t612 *
+      t1788 - (t618 * t1787 - (t625 * t1786 - (t631 * t1785 - (t1241 * t1530 - (t1235 * (t1486 + t1508) +
+      (t1248 * t1532 + (t1232 * t1496 + (t1228 * t1506 + (t1269 * (t52 * t1499) - (t1272 * t1499 - (t1275 *
+      t1489 - (t160 * t1249 * t1500 + (t52 * rear_contactc_x * t1268 * t1495 + state.z[6] * (rear_contactc_x *
+      t1249))))))))))))))))));
+  const Real t1910 = state.z[5] * (c2 * t1374 - (t59 * (q0r2_x * t1281 - c2 * t1274) - (q0r2_x * t1292 +
+      (front_contactbx3_x * t1274 + (t66 * t1249 + q0r2_y * t1378))))) - (t1100 * t1885 - (t1066 * t1861 -
+      (t1020 * t1842 - (t77 * t1791 - (t635 * t1790 - (t646 * t1789 - (t657 * t1788 - (t665 * t1787 - (t672 *
+      t1786 - (t679 * t1785 - (state.z[4] * (t66 * t1262 + (t59 * (q0r2_x * t1294 + front_contactbd2p_z *
+      t1274) + (front_contactbd2p_z * t1374 - (t1192 * t1378 - (q0r2_x * t1306 - front_contactbx2p_z *
+      t1274))))) - (state.z[7] * (c2 * (Real(0.9510565162951535) * (t59 * t1274 + t1374) + (model.r_front_y *
+      t1249 + Real(0.3090169943749474) * (t59 * t1262 + q0r2_z * t1369))) + (t74 * t1281 + (t71 * t1282 + s2 *
+      (model.r_front_y * (Real(0.3090169943749474) * t1262 + Real(0.9510565162951535) * t1274) - (t59 * t1249
+      - q0r2_y * t1369))))) + state.z[3] * (t59 * (c2 * t1262 - (t1192 * t1281 - (q0r2_y * t1294 -
+      front_contactbd2p_z * t1249))) + (t1369 * (c2 * t1192 + q0r2_y * front_contactbd2p_z) +
+      (front_contactbx2p_z * t1249 + (q0r2_y * t1306 + (t1192 * t1292 + front_contactbx3_x *
+      t1262)))))))))))))))));
+  const Real t1915 = q0r1_x * t1293 - (q0r1_y * t1281 + q0r1_z * t1294);
+  const Real t1957 = state.z[3] * (q0r0_z * t1292 - q0r0_y * t1306) - (t1461 * t1915 - (state.z[4] * (q0r0_z *
+      t1305 + q0r0_x * t1306) - (state.z[5] * (q0r0_x * t1292 + q0r0_y * t1305) - (state.z[7] *
+      (front_contacts1bf2_y * t1292 - q0r0_y * t1283) + (state.z[8] * (front_contacts1bn0_y * t1281 +
+      front_contacts1bn2_y * t1282) + (t1139 * t1910 + (t1113 * t1885 - (t1076 * t1861 - (t1030 * t1842 -
+      (front_contacts1bn3p_x * t1792 + (front_contacts1bm_z * t1791 - (t687 * t1790 - (t698 * t1789 - (t709 *
+      t1788 - (t716 * t1787 - (t723 * t1786 - (t731 * t1785 - (t1241 * t1536 + (t1235 * (t1425 - t1467) -
+      (t1248 * t1534 + (t1232 * t1454 + (t1228 * t1465 + (t1250 * t1463 - (t1275 * t1456 + (model.front_radius
+      * (front_contactbd0p_y * t1331 * t1457) + (t55 * front_contactc_y * t1335 * t1447 + (t1336 * (t55 *
+      t1475) - (t1339 * t1475 - (front_contactc_y * t1274 * t1433 + (front_contactc_y * t1262 * t1436 +
+      front_contactc_y * t1249 * t1428))))))))))))))))))))))))))))));
+  const Real t2010 = t1185 * (state.z[3] * (q0r1_z * t1292 + q0r1_y * t1306) + (t1461 * (q0r0_x * t1293 +
+      (q0r0_y * t1281 - q0r0_z * t1294)) + (state.z[4] * (q0r1_z * t1305 + q0r1_x * t1306) - (state.z[5] *
+      (q0r1_x * t1292 - q0r1_y * t1305) + (model.r_front_y * (state.z[7] * t1915) - (state.z[8] *
+      (front_contacts2bn0_y * t1281 - front_contacts2bn2_y * t1282) - (t1169 * t1957 - (t1154 * t1910 + (t1125
+      * t1885 - (t1087 * t1861 - (t1041 * t1842 - (front_contacts2bn3p_x * t1792 + (front_contacts2bm_z *
+      t1791 - (t739 * t1790 - (t750 * t1789 - (t761 * t1788 - (t768 * t1787 - (t776 * t1786 - (t783 * t1785 +
+      (t1241 * t1534 + (t1235 * (t1454 + t1465) + (t1248 * t1536 - (t1232 * t1467 - (t1228 * t1425 + (t1250 *
+      t1456 + (t1275 * t1463 + (t1336 * (t55 * t1452) - (t1339 * t1452 - (model.front_radius *
+      (front_contactbd0p_x * t1331 * t1457) + (t55 * front_contactc_x * t1335 * t1447 + (front_contactc_x *
+      t1274 * t1433 + (front_contactc_x * t1262 * t1436 + front_contactc_x * t1249 *
+      t1428))))))))))))))))))))))))))))))));
+  const Real t2012 = t1168 * t1957 + t1169 * t2010;
+  const Real t2016 = t1154 * t2010 + (t1138 * t1910 - t1139 * t2012);
+  const Real t2022 = t1125 * t2010 - (t1113 * t2012 + (t1099 * t1885 + t1100 * t2016));
+  const Real t2030 = t1087 * t2010 - (t1076 * t2012 + (t1066 * t2016 + (t1053 * t1861 + t1054 * t2022)));
+  const Real t2040 = t1041 * t2010 - (t1030 * t2012 + (t1020 * t2016 + (t1010 * t2022 + (t998 * t1842 + t999 *
+      t2030))));
+  const Real t2041 = Real(1.8087085566416913e-12) * t2040;
+  const Real t2048 = Real(7.806783314072456e-11) * t2030 - t999 * t2041;
+  const Real t2055 = t1054 * t2048 - (Real(8.816994788327498e-12) * t2022 - t1010 * t2041);
+  const Real t2062 = t1100 * t2055 - (t1066 * t2048 - (Real(3.988016169236579e-12) * t2016 - t1020 * t2041));
+  const Real t2069 = t1139 * t2062 - (t1113 * t2055 - (t1076 * t2048 - (Real(4.6476630875276904e-11) * t2012 -
+      t1030 * t2041)));
+  const Real t2082 = t1185 * (t1169 * t2069 - (t1154 * t2062 - (t1125 * t2055 - (t1087 * t2048 +
+      (Real(2.7054786900152528e-11) * t2010 + t1041 * t2041)))));
+  const Real t2084 = t1168 * t2069 - t1169 * t2082;
+  const Real t2088 = t1154 * t2082 - (t1138 * t2062 - t1139 * t2084);
+  const Real t2094 = t1125 * t2082 + (t1113 * t2084 - (t1099 * t2055 + t1100 * t2088));
+  const Real t2102 = t1087 * t2082 + (t1076 * t2084 - (t1066 * t2088 + (t1053 * t2048 + t1054 * t2094)));
+  lambda[0] = -(t1041 * t2082 + (t1030 * t2084 - (t1020 * t2088 + (t1010 * t2094 + (t999 * t2102 - (t2040 +
+      t998 * t2041))))));
+  lambda[1] = t2030 + t2102;
+  lambda[2] = t2022 + t2094;
+  lambda[3] = -(t2016 + t2088);
+  lambda[4] = t2012 - t2084;
+  lambda[5] = t2010 + t2082;
 }
 
 // `input` may be a function that gives the Input at the state of a stage.

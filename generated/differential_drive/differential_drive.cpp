@@ -7,26 +7,30 @@ template struct Model<double>;
 template struct Model<float>;
 template JOURDAIN_FUNCTION State<double> initial_state(const Model<double>& model) noexcept;
 template JOURDAIN_FUNCTION State<float> initial_state(const Model<float>& model) noexcept;
+template JOURDAIN_FUNCTION void position_rate(const Model<double>& model, const State<double>& state, double
+    (&ydot)[5]) noexcept;
+template JOURDAIN_FUNCTION void position_rate(const Model<float>& model, const State<float>& state, float
+    (&ydot)[5]) noexcept;
 template JOURDAIN_FUNCTION void mass_matrix(const Model<double>& model, const State<double>& state, double
-    (&M)[5][5]) noexcept;
+    (&M)[2][2]) noexcept;
 template JOURDAIN_FUNCTION void mass_matrix(const Model<float>& model, const State<float>& state, float
-    (&M)[5][5]) noexcept;
-template JOURDAIN_FUNCTION void k_bar(const Model<double>& model, const State<double>& state, double (&k)[5])
+    (&M)[2][2]) noexcept;
+template JOURDAIN_FUNCTION void k_bar(const Model<double>& model, const State<double>& state, double (&k)[2])
     noexcept;
-template JOURDAIN_FUNCTION void k_bar(const Model<float>& model, const State<float>& state, float (&k)[5])
+template JOURDAIN_FUNCTION void k_bar(const Model<float>& model, const State<float>& state, float (&k)[2])
     noexcept;
 template JOURDAIN_FUNCTION void q_bar(const Model<double>& model, const State<double>& state, const
-    Input<double>& input, double (&q)[5]) noexcept;
+    Input<double>& input, double (&q)[2]) noexcept;
 template JOURDAIN_FUNCTION void q_bar(const Model<float>& model, const State<float>& state, const
-    Input<float>& input, float (&q)[5]) noexcept;
+    Input<float>& input, float (&q)[2]) noexcept;
 template JOURDAIN_FUNCTION void forward_dynamics(const Model<double>& model, const State<double>& state, const
-    Input<double>& input, double (&zdot)[5]) noexcept;
+    Input<double>& input, double (&zdot)[2]) noexcept;
 template JOURDAIN_FUNCTION void forward_dynamics(const Model<float>& model, const State<float>& state, const
-    Input<float>& input, float (&zdot)[5]) noexcept;
+    Input<float>& input, float (&zdot)[2]) noexcept;
 template JOURDAIN_FUNCTION void inverse_dynamics(const Model<double>& model, const State<double>& state, const
-    double (&zdot)[5], double (&tau)[5]) noexcept;
+    double (&zdot)[2], double (&tau)[2]) noexcept;
 template JOURDAIN_FUNCTION void inverse_dynamics(const Model<float>& model, const State<float>& state, const
-    float (&zdot)[5], float (&tau)[5]) noexcept;
+    float (&zdot)[2], float (&tau)[2]) noexcept;
 template JOURDAIN_FUNCTION double kinetic_energy(const Model<double>& model, const State<double>& state)
     noexcept;
 template JOURDAIN_FUNCTION float kinetic_energy(const Model<float>& model, const State<float>& state)
@@ -35,8 +39,8 @@ template JOURDAIN_FUNCTION double potential_energy(const Model<double>& model, c
     noexcept;
 template JOURDAIN_FUNCTION float potential_energy(const Model<float>& model, const State<float>& state)
     noexcept;
-template JOURDAIN_FUNCTION void project(const Model<double>& model, State<double>& state) noexcept;
-template JOURDAIN_FUNCTION void project(const Model<float>& model, State<float>& state) noexcept;
+template JOURDAIN_FUNCTION void close_loops(const Model<double>& model, State<double>& state) noexcept;
+template JOURDAIN_FUNCTION void close_loops(const Model<float>& model, State<float>& state) noexcept;
 template JOURDAIN_FUNCTION void constraint_residual(const Model<double>& model, const State<double>& state,
     double (&g)[3], double (&g_rate)[3]) noexcept;
 template JOURDAIN_FUNCTION void constraint_residual(const Model<float>& model, const State<float>& state,

@@ -163,19 +163,19 @@ Input<Real> input_at(const InputAt& sampled, const State<Real>& stage) noexcept 
 }
 
 template <class Real> JOURDAIN_FUNCTION
-void velocities(const Model<Real>&, const State<Real>& stage, Real (&ydot)[5]) noexcept {
-  for (int i = 0; i < Model<Real>::position_count; ++i) ydot[i] = stage.z[i];
+void velocities(const Model<Real>& model, const State<Real>& stage, Real (&ydot)[5]) noexcept {
+  position_rate(model, stage, ydot);
 }
 
 template <class Real, class Inputs> JOURDAIN_FUNCTION
 void accelerations(const Model<Real>& model, const State<Real>& stage, const Inputs& input,
-                   Real (&zdot)[5]) noexcept {
+                   Real (&zdot)[2]) noexcept {
   forward_dynamics(model, stage, input_at(input, stage), zdot);
 }
 
 template <class Real, class Inputs> JOURDAIN_FUNCTION
 void rates(const Model<Real>& model, const State<Real>& stage, const Inputs& input, Real (&ydot)[5],
-           Real (&zdot)[5]) noexcept {
+           Real (&zdot)[2]) noexcept {
   velocities(model, stage, ydot);
   accelerations(model, stage, input, zdot);
 }
@@ -186,29 +186,27 @@ template <class Real> JOURDAIN_FUNCTION
 Model<Real>::Model(const Parameters& parameters) noexcept {
   expression = parameters.track * Real(0.5);
   mr_x = parameters.offset * Real(8.0);
-  const Real t7 = parameters.offset * mr_x;
-  const Real S_xx = Real(0.125) + t7;
+  const Real t8 = parameters.offset * mr_x;
+  const Real S_xx = Real(0.125) + t8;
   const Real mr_z = Real(0.5) * expression;
   const Real S_zz = Real(4.9999999999999914e-05) + expression * mr_z;
   const Real right_S_yy = S_zz + Real(0.07500000000000001);
   const Real left_S_yy = S_zz + right_S_yy;
   const Real S4c_xx = S_xx + Real(0.00125);
   const Real S3c_xx = Real(0.00125) + S4c_xx;
-  S2b_zz = left_S_yy + S3c_xx;
-  radius = parameters.radius;
-  S2b_zz_2 = Real(0.00125) + (t7 + (Real(0.125) + (Real(0.00125) + (Real(0.07500000000000001) + (S_zz +
+  const Real S2b_zz_2 = left_S_yy + S3c_xx;
+  S2b_zz = Real(0.00125) + (t8 + (Real(0.125) + (Real(0.00125) + (Real(0.07500000000000001) + (S_zz +
       S_zz)))));
-  c2 = Real(1.0) / S2b_zz_2;
-  c6 = radius * Real(400.0);
-  const Real t33 = Real(4.274494972416367e-10) + radius * c6;
-  c10 = Real(1.0) / S2b_zz;
-  const Real t35 = expression * expression;
-  c5 = c2 * t35;
-  const Real t37 = c10 * t35;
-  c4 = t33 + c5;
-  c8 = expression * c2;
-  c11 = t33 + t37;
-  c12 = t37 - Real(0.2222222222222222);
+  c11 = Real(1.0) / (expression * Real(2.0));
+  c1 = parameters.radius * c11;
+  c4 = c1 * (S2b_zz_2 * c1);
+  c6 = c1 * (S2b_zz * c1);
+  const Real t37 = expression * Real(5.0);
+  c9 = t37 * t37;
+  c0 = Real(0.5) * parameters.radius;
+  c2 = mr_x * c1;
+  c3 = c4 + Real(0.0025);
+  c7 = c6 + Real(0.0025);
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -222,152 +220,127 @@ State<Real> initial_state(const Model<Real>&) noexcept {
   initial.y[4] = Real(0.0);
   initial.z[0] = Real(0.0);
   initial.z[1] = Real(0.0);
-  initial.z[2] = Real(0.0);
-  initial.z[3] = Real(0.0);
-  initial.z[4] = Real(0.0);
   return initial;
 }
 
 template <class Real> JOURDAIN_FUNCTION
-void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[5][5]) noexcept {
+void position_rate(const Model<Real>& model, const State<Real>& state, Real (&ydot)[5]) noexcept {
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
-  const Real h2b_x = c2 * model.mr_x;
-  const Real h2b_y = s2 * model.mr_x;
-  M[0][0] = Real(9.0);
-  M[0][1] = M[1][0] = Real(0.0);
-  M[0][2] = M[2][0] = -h2b_y;
-  M[0][3] = M[3][0] = Real(0.0);
-  M[0][4] = M[4][0] = Real(0.0);
-  M[1][1] = Real(9.0);
-  M[1][2] = M[2][1] = h2b_x;
-  M[1][3] = M[3][1] = Real(0.0);
-  M[1][4] = M[4][1] = Real(0.0);
-  M[2][2] = model.S2b_zz;
-  M[2][3] = M[3][2] = Real(0.0);
-  M[2][4] = M[4][2] = Real(0.0);
-  M[3][3] = Real(0.0025);
-  M[3][4] = M[4][3] = Real(0.0);
-  M[4][4] = Real(0.0025);
+  const Real t5 = state.z[0] + state.z[1];
+  ydot[0] = c2 * t5 * model.c0;
+  ydot[1] = model.c0 * (s2 * t5);
+  ydot[2] = -((state.z[0] - state.z[1]) * model.c1);
+  ydot[3] = state.z[0];
+  ydot[4] = state.z[1];
 }
 
 template <class Real> JOURDAIN_FUNCTION
-void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[5]) noexcept {
+void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[2][2]) noexcept {
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
-  const Real zw_2 = state.z[2] * state.z[2];
+  const Real t4 = c2 * model.c0;
+  const Real t5 = s2 * model.c0;
+  const Real t16 = t4 * (t4 * Real(9.0) + s2 * model.c2) + t5 * (t5 * Real(9.0) - c2 * model.c2);
+  const Real t18 = t16 + model.c3;
+  M[0][0] = t18;
+  M[0][1] = M[1][0] = t16 - model.c4;
+  M[1][1] = t18;
+}
+
+template <class Real> JOURDAIN_FUNCTION
+void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[2]) noexcept {
+  Real s2, c2;
+  detail::sine_cosine(state.y[2], s2, c2);
+  const Real t4 = c2 * model.c0;
+  const Real t5 = s2 * model.c0;
+  const Real t8 = state.z[0] + state.z[1];
+  const Real t13 = (state.z[0] - state.z[1]) * model.c1;
+  const Real t18 = t5 * t8 * (s2 * t13) + t4 * t8 * (c2 * t13);
+  const Real zw_2 = t13 * t13;
   const Real kdf2_x = c2 * zw_2 * model.mr_x;
   const Real kdf2_y = model.mr_x * (s2 * zw_2);
-  k[0] = kdf2_x;
-  k[1] = kdf2_y;
-  k[2] = Real(0.0);
-  k[3] = Real(0.0);
-  k[4] = Real(0.0);
+  const Real t34 = t4 * (kdf2_x - s2 * t18 * Real(9.0)) + t5 * (kdf2_y + c2 * t18 * Real(9.0));
+  const Real t36 = t18 * model.c2;
+  k[0] = t34 - t36;
+  k[1] = t34 + t36;
 }
 
 template <class Real> JOURDAIN_FUNCTION
-void q_bar(const Model<Real>&, const State<Real>&, const Input<Real>& input, Real (&q)[5]) noexcept {
-  q[0] = Real(0.0);
-  q[1] = Real(0.0);
-  q[2] = Real(0.0);
-  q[3] = -input.u[0];
-  q[4] = -input.u[1];
+void q_bar(const Model<Real>&, const State<Real>&, const Input<Real>& input, Real (&q)[2]) noexcept {
+  q[0] = -input.u[0];
+  q[1] = -input.u[1];
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
-    (&zdot)[5]) noexcept {
+    (&zdot)[2]) noexcept {
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
+  const Real t4 = c2 * model.c0;
+  const Real t5 = s2 * model.c0;
+  const Real t8 = state.z[0] + state.z[1];
+  const Real t13 = (state.z[0] - state.z[1]) * model.c1;
+  const Real t18 = t5 * t8 * (s2 * t13) + t4 * t8 * (c2 * t13);
   const Real h2b_x = c2 * model.mr_x;
   const Real h2b_y = s2 * model.mr_x;
-  const Real t10 = h2b_x * model.c2;
-  const Real t14 = h2b_y * t10;
-  const Real t15 = h2b_y * model.c2;
-  const Real t18 = Real(1.0) / (h2b_x * t10 - Real(9.0));
-  const Real t19 = t14 * t18;
-  const Real t23 = Real(1.0) / (t14 * t19 + (Real(9.0) - h2b_y * t15));
-  const Real t25 = s2 - c2 * t19;
-  const Real t27 = t10 * model.expression;
-  const Real t28 = s2 + t27;
-  const Real t29 = t15 * model.expression;
-  const Real t32 = t19 * t28 + (c2 - t29);
-  const Real t33 = s2 - t27;
-  const Real t36 = t19 * t33 + (c2 + t29);
-  const Real t41 = t23 * t32;
-  const Real t42 = t18 * t28;
-  const Real t45 = t25 * t41 + c2 * t42;
-  const Real t53 = Real(1.0) / (t25 * (t23 * t25) - c2 * (c2 * t18) + Real(1.1917944994100028e-11));
-  const Real t54 = t45 * t53;
-  const Real t55 = t45 * t54;
-  const Real t59 = t55 - (t32 * t41 - t28 * t42) - model.c4;
-  const Real t63 = t55 - (t33 * t42 - (t36 * t41 - model.c5));
-  const Real t64 = Real(1.0) / t59;
-  const Real t65 = t63 * t64;
-  const Real t68 = Real(1.0) / (t59 - t63 * t65);
-  const Real t69 = s2 * state.z[2];
-  const Real t70 = c2 * state.z[2];
-  const Real zw_2 = state.z[2] * state.z[2];
-  const Real rdf2_x = h2b_x * zw_2;
-  const Real rdf2_y = h2b_y * zw_2;
-  const Real t82 = rdf2_x + t19 * rdf2_y;
-  const Real t88 = state.z[1] * t69 + state.z[0] * t70;
-  const Real t89 = t54 * t88;
-  const Real t91 = t42 * rdf2_y + (state.z[0] * t69 - state.z[1] * t70 - t41 * t82);
-  const Real t93 = t89 + (input.u[0] * model.c6 + t91);
-  const Real t100 = t68 * (t65 * t93 - (t89 - (input.u[1] * model.c6 + t91)));
-  const Real t102 = t64 * t93 + t65 * t100;
-  const Real t105 = t53 * t88 + t54 * (t100 - t102);
-  const Real t106 = Real(1.1917944994100028e-11) * t105;
-  const Real t110 = t54 * t106;
-  const Real t111 = t102 * Real(4.274494972416367e-10) - t110;
-  const Real t117 = t68 * (t65 * t111 + (t100 * Real(4.274494972416367e-10) + t110));
-  const Real t119 = t64 * t111 + t65 * t117;
-  const Real t123 = t54 * (t117 - t119) - (t105 + t53 * t106);
-  const Real t124 = t102 - t119;
-  const Real t125 = t100 - t117;
-  const Real t144 = t23 * (t36 * t125 + (t32 * t124 - (t82 + t25 * t123)));
-  const Real t147 = t18 * (t33 * t125 + (t28 * t124 - (rdf2_y - c2 * t123))) - t19 * t144;
-  zdot[0] = -t144;
-  zdot[1] = t147;
-  zdot[2] = -(t10 * t147 - ((t124 - t125) * model.c8 - t15 * t144));
-  zdot[3] = (input.u[0] + t124 * model.radius) * Real(400.0);
-  zdot[4] = (input.u[1] + t125 * model.radius) * Real(400.0);
+  const Real t33 = t4 * (t4 * Real(9.0) - model.c1 * h2b_y) + t5 * (t5 * Real(9.0) + model.c1 * h2b_x);
+  const Real t35 = t33 - model.c6;
+  const Real t37 = t33 + model.c7;
+  const Real t39 = Real(1.0) / t37;
+  const Real t40 = t35 * t39;
+  const Real rdf0t_z = s2 * t18 * Real(9.0);
+  const Real rdf1t_z = c2 * t18 * Real(9.0);
+  const Real zw_2 = t13 * t13;
+  const Real t54 = t4 * (rdf0t_z - h2b_x * zw_2) - t5 * (rdf1t_z + h2b_y * zw_2);
+  const Real t56 = t18 * model.c2;
+  const Real t58 = t54 - (input.u[1] + t56);
+  const Real t63 = (t54 - (input.u[0] - (t56 - t40 * t58))) / (t37 - t35 * t40);
+  zdot[0] = -t63;
+  zdot[1] = -(t39 * t58 - t40 * t63);
 }
 
 template <class Real> JOURDAIN_FUNCTION
-void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[5], Real
-    (&tau)[5]) noexcept {
+void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[2], Real
+    (&tau)[2]) noexcept {
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
+  const Real t4 = c2 * model.c0;
+  const Real t5 = s2 * model.c0;
+  const Real t8 = state.z[0] + state.z[1];
+  const Real t13 = (state.z[0] - state.z[1]) * model.c1;
+  const Real t18 = t5 * t8 * (s2 * t13) + t4 * t8 * (c2 * t13);
+  const Real t23 = zdot[0] + zdot[1];
+  const Real t25 = s2 * t18 + t4 * t23;
+  const Real t27 = c2 * t18 - t5 * t23;
+  const Real t29 = model.c1 * (zdot[0] - zdot[1]);
   const Real h2b_x = c2 * model.mr_x;
   const Real h2b_y = s2 * model.mr_x;
-  const Real adf0t_z = zdot[0] * Real(9.0);
-  const Real adf1t_z = zdot[1] * Real(9.0);
-  const Real aQp2 = zdot[0] * h2b_y - zdot[1] * h2b_x;
-  const Real zw_2 = state.z[2] * state.z[2];
-  const Real adf2_x = zdot[2] * h2b_y + h2b_x * zw_2;
-  const Real adf2_y = zdot[2] * h2b_x - h2b_y * zw_2;
-  const Real adn2_z = zdot[2] * model.S2b_zz;
-  const Real adn3_z = zdot[3] * Real(0.0025);
-  const Real adn4_z = zdot[4] * Real(0.0025);
-  const Real af1_z = adf1t_z + adf2_y;
-  const Real af0_z = adf0t_z - adf2_x;
-  const Real aQ2_0 = aQp2 - adn2_z;
-  tau[0] = af0_z;
-  tau[1] = af1_z;
-  tau[2] = -aQ2_0;
-  tau[3] = adn3_z;
-  tau[4] = adn4_z;
+  const Real adf0t_z = t25 * Real(9.0);
+  const Real adf1t_z = t27 * Real(9.0);
+  const Real zw_2 = t13 * t13;
+  const Real adn2_z = t29 * model.S2b_zz;
+  const Real adn3_z = zdot[0] * Real(0.0025);
+  const Real adn4_z = zdot[1] * Real(0.0025);
+  const Real af1_z = t29 * h2b_x + (adf1t_z + h2b_y * zw_2);
+  const Real af0_z = t29 * h2b_y + (adf0t_z - h2b_x * zw_2);
+  const Real aQ2_0 = t27 * h2b_x + (t25 * h2b_y + adn2_z);
+  const Real t56 = t4 * af0_z - t5 * af1_z;
+  const Real t57 = model.c1 * aQ2_0;
+  tau[0] = t56 + (adn3_z + t57);
+  tau[1] = t56 + (adn4_z - t57);
 }
 
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept {
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
-  const Real T4 = ((state.z[0] * state.z[0] + state.z[1] * state.z[1]) * Real(9.0) + (state.z[2] * state.z[2]
-      * model.S2b_zz_2 + (state.z[3] * state.z[3] + state.z[4] * state.z[4]) * Real(0.0025))) * Real(0.5) -
-      (state.z[0] * (s2 * state.z[2]) - state.z[1] * (c2 * state.z[2])) * model.mr_x;
+  const Real t5 = state.z[0] + state.z[1];
+  const Real t8 = c2 * t5 * model.c0;
+  const Real t10 = model.c0 * (s2 * t5);
+  const Real t13 = (state.z[0] - state.z[1]) * model.c1;
+  const Real T4 = ((t8 * t8 + t10 * t10) * Real(9.0) + (t13 * t13 * model.S2b_zz + (state.z[0] * state.z[0] +
+      state.z[1] * state.z[1]) * Real(0.0025))) * Real(0.5);
   return T4;
 }
 
@@ -377,78 +350,21 @@ Real potential_energy(const Model<Real>&, const State<Real>&) noexcept {
 }
 
 template <class Real> JOURDAIN_FUNCTION
-void project(const Model<Real>& model, State<Real>& state) noexcept {
+void close_loops(const Model<Real>& model, State<Real>& state) noexcept {
   State<Real> closed = state;
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
-  const Real h2b_x = c2 * model.mr_x;
-  const Real h2b_y = s2 * model.mr_x;
-  const Real t8 = h2b_x * model.c2;
-  const Real t12 = h2b_y * t8;
-  const Real t13 = h2b_y * model.c2;
-  const Real t16 = Real(1.0) / (h2b_x * t8 - Real(9.0));
-  const Real t17 = t12 * t16;
-  const Real t21 = Real(1.0) / (t12 * t17 + (Real(9.0) - h2b_y * t13));
-  const Real t23 = s2 - c2 * t17;
-  const Real t25 = t8 * model.expression;
-  const Real t26 = s2 + t25;
-  const Real t27 = t13 * model.expression;
-  const Real t30 = t17 * t26 + (c2 - t27);
-  const Real t31 = s2 - t25;
-  const Real t34 = t17 * t31 + (c2 + t27);
-  const Real t38 = t21 * t30;
-  const Real t39 = t16 * t26;
-  const Real t42 = t23 * t38 + c2 * t39;
-  const Real t50 = Real(1.0) / (t23 * (t21 * t23) - c2 * c2 * t16 + Real(1.1917944994100028e-11));
-  const Real t51 = t42 * t50;
-  const Real t52 = t42 * t51;
-  const Real t56 = t52 - (t30 * t38 - t26 * t39) - model.c4;
-  const Real t60 = t52 - (t31 * t39 - (t34 * t38 - model.c5));
-  const Real t61 = Real(1.0) / t56;
-  const Real t62 = t60 * t61;
-  const Real t65 = Real(1.0) / (t56 - t60 * t62);
-  const Real t74 = s2 * state.z[0] - c2 * state.z[1];
-  const Real t80 = c2 * state.z[0] + s2 * state.z[1];
-  const Real t81 = model.expression * state.z[2];
-  const Real t85 = t51 * t74;
-  const Real t88 = t85 + (state.z[3] * model.radius - (t80 - t81));
-  const Real t96 = t65 * (t62 * t88 - (t85 - (state.z[4] * model.radius - (t80 + t81))));
-  const Real t98 = t61 * t88 + t62 * t96;
-  const Real t99 = t96 - t98;
-  const Real t101 = t50 * t74 + t51 * t99;
-  const Real t112 = t21 * (t34 * t96 + (t23 * t101 + t30 * t98));
-  const Real t115 = t16 * (t31 * t96 - (c2 * t101 - t26 * t98)) - t17 * t112;
-  closed.y[0] = state.y[0];
-  closed.y[1] = state.y[1];
-  closed.y[2] = state.y[2];
-  closed.y[3] = state.y[3];
-  closed.y[4] = state.y[4];
-  closed.z[0] = state.z[0] - t112;
-  closed.z[1] = state.z[1] + t115;
-  closed.z[2] = -(t8 * t115 + (t13 * t112 - (state.z[2] - t99 * model.c8)));
-  closed.z[3] = state.z[3] + t98 * model.c6;
-  closed.z[4] = state.z[4] + t96 * model.c6;
-  closed.regularity = Real(1.0) / (t65 * (t50 * t61)) * Real(0.46165772712034864);
+  closed.regularity = model.c9;
   closed.opening = Real(0.0);
   state = closed;
 }
 
 template <class Real> JOURDAIN_FUNCTION
-void constraint_residual(const Model<Real>& model, const State<Real>& state, Real (&g)[3], Real (&g_rate)[3])
-    noexcept {
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
-  const Real axles = s2 * state.z[0] - c2 * state.z[1];
-  const Real expression = state.z[3] * model.radius;
-  const Real expression_2 = state.z[4] * model.radius;
-  const Real t16 = c2 * state.z[0] + s2 * state.z[1];
-  const Real t18 = state.z[2] * model.expression;
+void constraint_residual(const Model<Real>&, const State<Real>&, Real (&g)[3], Real (&g_rate)[3]) noexcept {
   g[0] = Real(0.0);
   g[1] = Real(0.0);
   g[2] = Real(0.0);
-  g_rate[0] = -axles;
-  g_rate[1] = -(t18 + (expression - t16));
-  g_rate[2] = t18 - (expression_2 - t16);
+  g_rate[0] = Real(0.0);
+  g_rate[1] = Real(0.0);
+  g_rate[2] = Real(0.0);
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -456,48 +372,46 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
     (&lambda)[3]) noexcept {
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
+  const Real left_wheelx3_y = c2 * model.expression;
+  const Real left_wheelx3_x = s2 * model.expression;
+  const Real t9 = left_wheelx3_y * model.c1;
+  const Real t10 = left_wheelx3_x * model.c1;
+  const Real t13 = state.z[0] + state.z[1];
+  const Real t17 = model.c1 * (state.z[0] - state.z[1]);
+  const Real t22 = t10 * t13 * (s2 * t17) + t9 * t13 * (c2 * t17);
+  const Real t23 = s2 * t22;
+  const Real t24 = c2 * t22;
   const Real h2b_x = c2 * model.mr_x;
   const Real h2b_y = s2 * model.mr_x;
-  const Real t10 = h2b_x * model.c10;
-  const Real t14 = h2b_y * t10;
-  const Real t15 = h2b_y * model.c10;
-  const Real t18 = Real(1.0) / (h2b_x * t10 - Real(9.0));
-  const Real t19 = t14 * t18;
-  const Real t23 = Real(1.0) / (h2b_y * t15 - (Real(9.0) + t14 * t19));
-  const Real t25 = s2 - c2 * t19;
-  const Real t28 = s2 + t10 * model.expression;
-  const Real t32 = t15 * model.expression - (c2 + t19 * t28);
-  const Real t37 = t23 * t32;
-  const Real t38 = t18 * t28;
-  const Real t41 = t25 * t37 + c2 * t38;
-  const Real t47 = Real(1.0) / (t25 * (t23 * t25) + c2 * (c2 * t18) - Real(1.1917944994100028e-11));
-  const Real t48 = t41 * t47;
-  const Real t51 = t41 * t48 - (t32 * t37 + t28 * t38);
-  const Real t53 = t51 + model.c11;
-  const Real t55 = t51 + model.c12;
-  const Real t56 = Real(1.0) / t53;
-  const Real t57 = t55 * t56;
-  const Real t60 = Real(1.0) / (t53 - t55 * t57);
-  const Real t61 = s2 * state.z[2];
-  const Real t62 = c2 * state.z[2];
-  const Real zw_2 = state.z[2] * state.z[2];
-  const Real rdf2_x = h2b_x * zw_2;
-  const Real rdf2_y = h2b_y * zw_2;
-  const Real t79 = state.z[1] * t61 + state.z[0] * t62;
-  const Real t80 = t48 * t79;
-  const Real t83 = t37 * (rdf2_x + t19 * rdf2_y) + (state.z[1] * t62 - (state.z[0] * t61 + t38 * rdf2_y));
-  const Real t85 = t83 - (input.u[0] * model.c6 - t80);
-  const Real t92 = t60 * (t83 - (input.u[1] * model.c6 + (t80 - t57 * t85)));
-  const Real t94 = t56 * t85 + t57 * t92;
-  const Real t97 = t47 * t79 + t48 * (t92 - t94);
-  const Real t98 = Real(1.1917944994100028e-11) * t97;
-  const Real t102 = t48 * t98;
-  const Real t103 = t94 * Real(4.274494972416367e-10) - t102;
-  const Real t109 = t60 * (t102 + (t92 * Real(4.274494972416367e-10) + t57 * t103));
-  const Real t111 = t56 * t103 + t57 * t109;
-  lambda[0] = t48 * (t109 - t111) + (t97 - t47 * t98);
-  lambda[1] = t94 + t111;
-  lambda[2] = t92 + t109;
+  const Real t37 = t9 * (t9 * Real(9.0) - model.c1 * h2b_y) + t10 * (t10 * Real(9.0) + model.c1 * h2b_x);
+  const Real t39 = t37 - model.c6;
+  const Real t41 = t37 + model.c7;
+  const Real t43 = Real(1.0) / t41;
+  const Real t44 = t39 * t43;
+  const Real rdf0t_z = t23 * Real(9.0);
+  const Real rdf1t_z = t24 * Real(9.0);
+  const Real zw_2 = t17 * t17;
+  const Real t50 = h2b_x * zw_2;
+  const Real t51 = h2b_y * zw_2;
+  const Real rQ2_0 = t22 * model.mr_x;
+  const Real t59 = t9 * (rdf0t_z - t50) - t10 * (rdf1t_z + t51);
+  const Real t60 = model.c1 * rQ2_0;
+  const Real t62 = t59 - (input.u[1] + t60);
+  const Real t67 = (t59 - (input.u[0] - (t60 - t44 * t62))) / (t41 - t39 * t44);
+  const Real t70 = t43 * t62 - t44 * t67;
+  const Real t71 = t67 + t70;
+  const Real t77 = model.c1 * (t67 - t70);
+  const Real rdf0t_z_2 = Real(9.0) * (t23 - t9 * t71);
+  const Real rdf1t_z_2 = Real(9.0) * (t24 + t10 * t71);
+  const Real rdn2_z = t77 * model.S2b_zz;
+  const Real rf1_z = rdf1t_z_2 + (t51 - h2b_x * t77);
+  const Real rf0_z = rdf0t_z_2 - (t50 + h2b_y * t77);
+  const Real t95 = left_wheelx3_y * rf0_z - left_wheelx3_x * rf1_z;
+  const Real t96 = rQ2_0 - rdn2_z;
+  lambda[0] = ((left_wheelx3_x + left_wheelx3_x) * rf0_z + (left_wheelx3_y + left_wheelx3_y) * rf1_z) *
+      model.c11;
+  lambda[1] = -(model.c11 * (t95 + t96));
+  lambda[2] = -(model.c11 * (t95 - t96));
 }
 
 // `input` may be a function that gives the Input at the state of a stage.
@@ -525,7 +439,7 @@ void rk4_step(const Model<Real>& model, State<Real>& state, const InputAt& input
   for (int i = 0; i < nz; ++i)
     state.z[i] = state.z[i] + sixth * (a1[i] + Real(2.0) * (a2[i] + a3[i]) + a4[i]);
   state.t = state.t + h;
-  project(model, state);
+  close_loops(model, state);
 }
 
 template <class Real> JOURDAIN_FUNCTION

@@ -72,16 +72,21 @@ Model<Real>::Model(const Parameters& parameters) noexcept {
   const Real disc_S_yy = disc_S_xx - S0b_zz;
   kdS00 = disc_S_xx + disc_S_yy;
   q_2 = mass * Real(9.81);
+  const Real disc_S_yy_2 = t9 + (t9 - disc_S_xx);
+  const Real S0b_zz_3 = disc_S_xx + disc_S_yy_2;
+  c6 = Real(1.0) / S0b_zz_3;
+  c7 = Real(1.0) / Jy0;
+  c13 = Real(1.0) / mass;
+  c8 = c13 + Real(4.9999999999999995e-11);
+  c9 = c13 + Real(1.5000000000000002e-10);
+  c10 = c13 + Real(2.5e-10);
+  rdS00 = disc_S_xx - disc_S_yy_2;
+  c12 = q_2 * c13;
   S0b_zz_2 = disc_S_xx - disc_S_yy;
-  c7 = Real(1.0) / S0b_zz_2;
-  c8 = Real(1.0) / Jy0;
-  c6 = Real(1.0) / mass;
-  c9 = c6 + Real(4.9999999999999995e-11);
-  c10 = q_2 * c6;
-  c12 = Real(0.5) * mass;
-  c13 = radius * Real(0.5);
-  c14 = Real(1.0) / S0b_zz;
-  c15 = kdS00 * c7;
+  c15 = Real(0.5) * mass;
+  c16 = radius * Real(0.5);
+  c17 = Real(1.0) / S0b_zz;
+  c18 = c6 * rdS00;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -184,13 +189,15 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t20 = q0r2_y + q0r2_y;
   const Real t21 = Real(1.0) / groundup;
   const Real t22 = Real(0.5) * t21;
-  const Real t23 = t20 * t22;
-  const Real t25 = t23 * model.radius;
+  const Real t24 = t22 * model.radius;
+  const Real t25 = t20 * t24;
   const Real t27 = q0d1 * t25;
+  const Real t30 = q0d3 * t25;
   const Real t32 = Real(2.0) * (state.y[5] * t25);
   const Real t34 = t16 * t32;
-  const Real t38 = state.y[3] * (state.y[3] * t25) - (t18 * t32 + (t17 * t27 - t19 * (q0d3 * t25)));
-  const Real t41 = t34 + (t34 - state.y[6] * t27);
+  const Real t35 = Real(2.0) * (state.y[3] * t25);
+  const Real t39 = t16 * t35 - (t18 * t32 + (t17 * t27 - t19 * t30));
+  const Real t42 = t34 + (t34 - state.y[6] * t27);
   const Real q0d2 = Real(2.0) * state.y[5];
   const Real q011 = state.y[4] * q0d1;
   const Real q022 = state.y[5] * q0d2;
@@ -199,130 +206,114 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real q013 = state.y[4] * q0d3;
   const Real q002 = state.y[3] * q0d2;
   const Real q003 = q0d3 * state.y[3];
+  const Real q0r1_x = q012 + q003;
+  const Real t52 = Real(1.0) - q011;
+  const Real q0r1_y = q033 - t52;
+  const Real q0r1_z = q023 - q001;
+  const Real q0r2_x = q013 - q002;
+  const Real q0r2_z = q022 - t52;
+  const Real t57 = model.radius * q0r1_y;
+  const Real groundc_y = t25 * q0r1_y;
+  const Real groundc_z = model.radius * (t12 / groundup);
+  const Real grounds1bn0_x = q0r1_x * groundc_z + q0r2_x * groundc_y;
+  const Real grounds1bn0_y = t21 * t57;
+  const Real grounds1bn0_z = q0r1_z * groundc_z - q0r2_z * groundc_y;
   const Real q0r0_x = q022 - (Real(1.0) - q033);
   const Real q0r0_y = q012 - q003;
   const Real q0r0_z = q013 + q002;
-  const Real q0r1_x = q012 + q003;
-  const Real t55 = Real(1.0) - q011;
-  const Real q0r1_y = q033 - t55;
-  const Real q0r1_z = q023 - q001;
-  const Real q0r2_x = q013 - q002;
-  const Real q0r2_z = q022 - t55;
-  const Real t60 = model.radius * q0r1_y;
-  const Real groundc_y = t23 * t60;
-  const Real groundc_z = model.radius * (t12 / groundup);
-  const Real grounds1bn0_x = q0r1_x * groundc_z + q0r2_x * groundc_y;
-  const Real grounds1bn0_y = t21 * t60;
-  const Real grounds1bn0_z = q0r1_z * groundc_z - q0r2_z * groundc_y;
-  const Real grounds1bf_x = q0r0_z * q0r0_z + (q0r0_x * q0r0_x + q0r0_y * q0r0_y);
-  const Real grounds1bf_y = q0r0_z * q0r1_z - (q0r0_x * q0r1_x + q0r0_y * q0r1_y);
-  const Real grounds1bf_z = q0r0_z * q0r2_z + (q0r0_x * q0r2_x - q0r2_y * q0r0_y);
-  const Real t86 = model.radius * q0r0_y;
-  const Real groundc_x = t23 * t86;
-  const Real grounds2bn0_x = q0r0_x * groundc_z + q0r2_x * groundc_x;
-  const Real grounds2bn0_y = t21 * t86;
-  const Real grounds2bn0_z = q0r0_z * groundc_z + q0r2_z * groundc_x;
-  const Real grounds2bf_y = q0r1_z * q0r1_z + (q0r1_x * q0r1_x + q0r1_y * q0r1_y);
-  const Real grounds2bf_z = q0r1_z * q0r2_z - (q0r1_x * q0r2_x - q0r2_y * q0r1_y);
-  const Real t114 = grounds1bf_y * model.c6;
-  const Real t115 = grounds1bf_z * model.c6;
-  const Real t117 = grounds1bn0_x * model.c7;
-  const Real t118 = grounds1bn0_z * model.c7;
-  const Real t122 = t41 * t118 - (t115 - t38 * t117);
-  const Real t125 = grounds1bf_y * t114;
-  const Real t132 = grounds2bf_y * model.c6;
-  const Real t133 = grounds2bf_z * model.c6;
-  const Real t134 = grounds2bn0_x * model.c7;
-  const Real t135 = grounds2bn0_y * model.c8;
-  const Real t136 = grounds2bn0_z * model.c7;
-  const Real t140 = t41 * t136 + (t133 - t38 * t134);
-  const Real t156 = Real(1.0) / (model.c7 * (t38 * t38 + t41 * t41) + model.c9);
-  const Real t157 = t122 * t156;
-  const Real t167 = t140 * t156;
-  const Real t174 = t122 * t167 - (grounds1bn0_z * t136 - (grounds1bn0_y * t135 + (grounds1bn0_x * t134 +
-      (grounds1bf_z * t133 + (grounds1bf_x * t114 + grounds1bf_y * t132)))));
-  const Real t176 = Real(1.0) / (t122 * t157 - (grounds1bn0_z * t118 + (grounds1bn0_y * grounds1bn0_y *
-      model.c8 + (grounds1bn0_x * t117 + (grounds1bf_z * t115 + (model.c6 * (grounds1bf_x * grounds1bf_x) +
-      t125)))) + Real(1.5000000000000002e-10)));
-  const Real t177 = t174 * t176;
-  const Real t188 = Real(1.0) / (t174 * t177 - (t140 * t167 - (grounds2bn0_z * t136 + (grounds2bn0_y * t135 +
-      (grounds2bn0_x * t134 + (grounds2bf_z * t133 + (t125 + grounds2bf_y * t132)))) + Real(2.5e-10))));
-  const Real t195 = q0d1 * t17 - (state.y[3] * state.y[3] - (state.y[5] * state.y[5] - q0d3 * t19));
-  const Real t202 = t19 * state.z[5] + (t17 * state.z[3] + t18 * state.z[4]);
-  const Real t207 = t18 * state.z[5] + (t16 * state.z[3] - t19 * state.z[4]);
-  const Real t212 = t17 * state.z[5] - (t19 * state.z[3] + t16 * state.z[4]);
-  const Real t217 = t16 * state.z[5] - (t18 * state.z[3] - t17 * state.z[4]);
-  const Real t228 = q0d1 * t207;
-  const Real t233 = Real(2.0) * t228;
-  const Real t234 = Real(2.0) * t217;
-  const Real t235 = q0d3 * t217;
-  const Real t237 = Real(2.0) * t235;
-  const Real t239 = q0d3 * t207 + state.y[4] * t234;
-  const Real t242 = state.y[5] * t234 - q0d3 * t212;
-  const Real t244 = Real(2.0) * t212;
-  const Real t245 = q0d2 * t212;
-  const Real t247 = Real(2.0) * (state.y[3] * t207) - q0d1 * t202;
-  const Real t248 = state.y[3] * t202;
-  const Real t252 = state.y[3] * t234 - q0d3 * t202;
-  const Real t253 = t242 + t247;
-  const Real t254 = t242 - t247;
-  const Real t255 = Real(2.0) * t253;
-  const Real t262 = t23 * t253;
-  const Real t263 = t21 * t22 * t262;
-  const Real t278 = Real(2.0) * (state.y[5] * t202 + (state.y[3] * t212 + Real(0.5) * t239));
-  const Real t289 = Real(2.0) * t245;
-  const Real t291 = q0d2 * t207 - state.y[4] * t244;
-  const Real t294 = t239 - (q0d2 * t202 + state.y[3] * t244);
-  const Real t295 = t252 - t291;
-  const Real t296 = t252 + t291;
-  const Real t297 = t237 - t289;
-  const Real t304 = q0r2_y * t295;
-  const Real t314 = t233 + t237;
-  const Real t315 = t233 - t289;
-  const Real t319 = q0r2_y * t314;
-  const Real t335 = t21 * groundc_y * t262 + t21 * (t60 * t253 + model.radius * t319);
-  const Real t340 = t21 * groundc_z * t262 + t25 * t255;
-  const Real t366 = q0r0_y * t314 - (q0r1_y * t295 - (q0r0_x * t296 + (q0r1_x * t297 - (q0r1_z * t294 + q0r0_z
-      * t254))));
-  const Real t378 = t21 * groundc_x * t262 + t21 * (t86 * t253 - model.radius * t304);
+  const Real t72 = model.radius * q0r0_y;
+  const Real groundc_x = t25 * q0r0_y;
+  const Real grounds2bn0_x = groundc_z * q0r0_x + q0r2_x * groundc_x;
+  const Real grounds2bn0_y = t21 * t72;
+  const Real grounds2bn0_z = groundc_z * q0r0_z + q0r2_z * groundc_x;
+  const Real t87 = grounds1bn0_x * model.c6;
+  const Real t88 = grounds1bn0_z * model.c6;
+  const Real t91 = t39 * t87 + t42 * t88;
+  const Real t97 = grounds2bn0_x * model.c6;
+  const Real t98 = grounds2bn0_y * model.c7;
+  const Real t99 = grounds2bn0_z * model.c6;
+  const Real t102 = t39 * t97 - t42 * t99;
+  const Real t113 = Real(1.0) / (model.c6 * (t39 * t39 + t42 * t42) + model.c8);
+  const Real t114 = t91 * t113;
+  const Real t121 = t102 * t113;
+  const Real t125 = t91 * t121 + (grounds1bn0_z * t99 - (grounds1bn0_x * t97 + grounds1bn0_y * t98));
+  const Real t127 = Real(1.0) / (t91 * t114 - (grounds1bn0_z * t88 + (grounds1bn0_y * grounds1bn0_y * model.c7
+      + (grounds1bn0_x * t87 + model.c9))));
+  const Real t128 = t125 * t127;
+  const Real t136 = Real(1.0) / (t125 * t128 - (t102 * t121 - (grounds2bn0_z * t99 + (grounds2bn0_y * t98 +
+      (grounds2bn0_x * t97 + model.c10)))));
+  const Real t141 = t19 * state.z[5] + (t17 * state.z[3] + t18 * state.z[4]);
+  const Real t146 = t18 * state.z[5] + (t16 * state.z[3] - t19 * state.z[4]);
+  const Real t151 = t17 * state.z[5] - (t19 * state.z[3] + t16 * state.z[4]);
+  const Real t156 = t16 * state.z[5] - (t18 * state.z[3] - t17 * state.z[4]);
+  const Real t161 = Real(2.0) * t146;
+  const Real t162 = q0d2 * t146;
+  const Real t166 = q0d1 * t161;
+  const Real t167 = Real(2.0) * t156;
+  const Real t169 = q0d3 * t167;
+  const Real t171 = q0d3 * t146 + state.y[4] * t167;
+  const Real t174 = state.y[5] * t167 - q0d3 * t151;
+  const Real t176 = Real(2.0) * t151;
+  const Real t177 = q0d2 * t151;
+  const Real t179 = state.y[3] * t161 - q0d1 * t141;
+  const Real t180 = q0d2 * t141;
+  const Real t182 = state.y[3] * t167 - q0d3 * t141;
+  const Real t183 = t174 + t179;
+  const Real t185 = t20 * t183;
+  const Real t190 = t22 * t185;
+  const Real t191 = model.radius * t185;
+  const Real t194 = t21 * groundc_z * t190;
+  const Real t196 = groundc_x * state.z[5];
+  const Real t199 = groundc_z * state.z[5];
+  const Real t204 = groundc_x * state.z[3];
+  const Real t207 = q0r2_x * state.z[3] - (q0r2_z * state.z[5] - q0r2_y * state.z[4]);
+  const Real t210 = q0r0_x * state.z[3] - (q0r0_z * state.z[5] + q0r0_y * state.z[4]);
+  const Real t211 = groundc_z * state.z[3];
+  const Real t212 = t21 * t207;
+  const Real t216 = groundc_z * state.z[4] - t25 * t207;
+  const Real t217 = groundc_y * state.z[5];
+  const Real t221 = groundc_y * state.z[3];
+  const Real t224 = q0r1_x * state.z[3] + (q0r1_z * state.z[5] - q0r1_y * state.z[4]);
+  const Real t233 = t196 - t211;
+  const Real t235 = t199 + t204;
+  const Real t264 = t167 * (t25 * t151);
+  const Real t270 = t141 * (t25 * t161);
   const Real rww00 = state.z[4] * state.z[5];
   const Real rww02 = state.z[3] * state.z[4];
-  const Real rdn0_x = rww00 * model.kdS00;
-  const Real rdn0_z = rww02 * model.kdS00;
-  const Real t408 = model.c7 * rdn0_x;
-  const Real t409 = model.c7 * rdn0_z;
-  const Real t423 = model.radius * (state.z[3] * (t20 * t195 * t263 + t22 * (t195 * t255 + t20 * (t248 + (t248
-      + (t228 - (t235 + t245)))))) + state.z[5] * (t20 * q0r2_x * t263 + t22 * (q0r2_x * t255 + t20 * t278)))
-      + (t41 * t409 - (t38 * t408 - model.c10));
-  const Real t433 = t157 * t423 - (grounds1bn0_z * t409 - (grounds1bn0_x * t408 + (grounds1bf_z * model.c10 -
-      (state.z[1] * t366 + (state.z[0] * ((q0r0_y + q0r0_y) * t295 - ((q0r0_x + q0r0_x) * t297 + (q0r0_z +
-      q0r0_z) * t294)) + (state.z[2] * (q0r0_x * t278 + (q0r2_x * t297 + (t304 - (q0r0_y * t253 - (q0r2_z *
-      t294 + q0r0_z * t315))))) - (state.z[3] * (q0r1_x * t340 + (groundc_z * t296 + (groundc_y * t278 +
-      q0r2_x * t335))) - (state.z[4] * (q0r1_y * t340 + (groundc_z * t314 - (groundc_y * t253 + q0r2_y *
-      t335))) - state.z[5] * (q0r1_z * t340 + (groundc_z * t254 - (groundc_y * t315 + q0r2_z *
-      t335)))))))))));
-  const Real t448 = t188 * (t177 * t433 - (t167 * t423 - (grounds2bn0_z * t409 + (grounds2bn0_x * t408 +
-      (grounds2bf_z * model.c10 + (state.z[1] * ((q0r1_y + q0r1_y) * t314 + ((q0r1_x + q0r1_x) * t296 +
-      (q0r1_z + q0r1_z) * t254)) - (state.z[0] * t366 - (state.z[2] * (q0r1_x * t278 + (q0r2_x * t296 - (t319
-      + (q0r1_y * t253 + (q0r2_z * t254 + q0r1_z * t315))))) + (state.z[3] * (q0r2_x * t378 + (groundc_x *
-      t278 + (groundc_z * t297 + q0r0_x * t340))) + (state.z[4] * (q0r2_y * t378 + (groundc_x * t253 +
-      (groundc_z * t295 - q0r0_y * t340))) - state.z[5] * (q0r2_z * t378 + (groundc_x * t315 + (groundc_z *
-      t294 + q0r0_z * t340)))))))))))));
-  const Real t450 = t176 * t433 - t177 * t448;
-  const Real t454 = t167 * t448 - (t156 * t423 - t157 * t450);
-  const Real t456 = t454 * Real(4.9999999999999995e-11);
-  const Real t460 = Real(1.5000000000000002e-10) * t450 + t157 * t456;
-  const Real t467 = t188 * (t177 * t460 - (Real(2.5e-10) * t448 + t167 * t456));
-  const Real t469 = t176 * t460 - t177 * t467;
-  const Real t474 = t167 * t467 + (t157 * t469 - (t454 + t156 * t456));
-  const Real t475 = t450 - t469;
-  const Real t476 = t448 - t467;
-  zdot[0] = model.c6 * (grounds1bf_x * t475 - grounds1bf_y * t476);
-  zdot[1] = model.c6 * (grounds1bf_y * t475 - grounds2bf_y * t476);
-  zdot[2] = model.c6 * (grounds2bf_z * t476 - (grounds1bf_z * t475 - (t474 - model.q_2)));
-  zdot[3] = -(model.c7 * (grounds2bn0_x * t476 - (grounds1bn0_x * t475 + (rdn0_x + t38 * t474))));
-  zdot[4] = model.c8 * (grounds1bn0_y * t475 - grounds2bn0_y * t476);
-  zdot[5] = model.c7 * (grounds2bn0_z * t476 + (grounds1bn0_z * t475 - (rdn0_z - t41 * t474)));
+  const Real rdn0_x = rww00 * model.rdS00;
+  const Real rdn0_z = rww02 * model.rdS00;
+  const Real t293 = model.c6 * rdn0_x;
+  const Real t294 = model.c6 * rdn0_z;
+  const Real t314 = t42 * t294 - (t39 * t293 + (Real(2.0) * (t183 * (t24 * t183)) + (t191 * (t21 * t22 * t190)
+      - (t270 + (t270 + (t264 + (t264 + (Real(0.5) * (t141 * (t35 * state.z[3] + (t32 * state.z[5] + t30 *
+      state.z[4])) + (t146 * (t27 * state.z[3] - (t32 * state.z[4] - t30 * state.z[5])) + (t156 * (t35 *
+      state.z[4] - (t30 * state.z[3] - t27 * state.z[5])) + t151 * (t35 * state.z[5] - (t32 * state.z[3] + t27
+      * state.z[4]))))) + model.c12))))))));
+  const Real t333 = t221 * (t171 + t180) + (t211 * (t162 + t182) + (t114 * t314 - (grounds1bn0_z * t294 -
+      (grounds1bn0_x * t293 + (t176 * (state.y[5] * t217 + (state.y[3] * t221 - state.y[4] * t211)) - (t166 *
+      (t216 + t217) - (t177 * t217 - (t169 * t216 - ((t174 - t179) * t199 + (t57 * t183 * t212 + (t21 *
+      groundc_y * t190 * t207 + (t191 * (t21 * t224) + (state.z[4] * (groundc_y * t183) + t194 *
+      t224)))))))))))));
+  const Real t355 = t136 * (t216 * (t162 - t182) + (t128 * t333 - (t121 * t314 + (grounds2bn0_z * t294 +
+      (grounds2bn0_x * t293 + (t176 * (state.y[5] * t233 + (state.y[3] * t235 + state.y[4] * t216)) - (t166 *
+      t196 - (t177 * t233 + (t169 * t211 - (t171 * (t199 - t204) - (t180 * t235 + (t191 * (t21 * t210) + (t194
+      * t210 + (t72 * t183 * t212 + (state.z[4] * (groundc_x * t183) + t21 * groundc_x * t190 *
+      t207)))))))))))))));
+  const Real t357 = t127 * t333 - t128 * t355;
+  const Real t361 = t121 * t355 - (t113 * t314 - t114 * t357);
+  const Real t363 = t361 * Real(4.9999999999999995e-11);
+  const Real t369 = t357 * Real(1.5000000000000002e-10) + t114 * t363;
+  const Real t376 = t136 * (t128 * t369 - (t355 * Real(2.5e-10) + t121 * t363));
+  const Real t378 = t127 * t369 - t128 * t376;
+  const Real t383 = t121 * t376 + (t114 * t378 - (t361 + t113 * t363));
+  const Real t384 = t357 - t378;
+  const Real t385 = t355 - t376;
+  zdot[0] = t384 * model.c13;
+  zdot[1] = t385 * model.c13;
+  zdot[2] = (t383 - model.q_2) * model.c13;
+  zdot[3] = model.c6 * (grounds2bn0_x * t385 + (grounds1bn0_x * t384 + (rdn0_x + t39 * t383)));
+  zdot[4] = model.c7 * (grounds1bn0_y * t384 + grounds2bn0_y * t385);
+  zdot[5] = -(model.c6 * (grounds2bn0_z * t385 - (grounds1bn0_z * t384 - (rdn0_z - t42 * t383))));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -349,7 +340,7 @@ template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept {
   const Real Tfree = (state.z[4] * state.z[4] * model.Jy0 + (state.z[3] * state.z[3] + state.z[5] *
       state.z[5]) * model.S0b_zz) * Real(0.5) + (state.z[2] * state.z[2] + (state.z[0] * state.z[0] +
-      state.z[1] * state.z[1])) * model.c12;
+      state.z[1] * state.z[1])) * model.c15;
   return Tfree;
 }
 
@@ -364,7 +355,7 @@ void outputs(const Model<Real>& model, const State<Real>& state, const Input<Rea
     noexcept {
   const Real Tfree = (state.z[4] * state.z[4] * model.Jy0 + (state.z[3] * state.z[3] + state.z[5] *
       state.z[5]) * model.S0b_zz) * Real(0.5) + (state.z[2] * state.z[2] + (state.z[0] * state.z[0] +
-      state.z[1] * state.z[1])) * model.c12;
+      state.z[1] * state.z[1])) * model.c15;
   const Real V = state.y[2] * model.q_2;
   result.kinetic = Tfree;
   result.potential = V;
@@ -382,7 +373,7 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real groundup = detail::square_root(-t12);
   const Real g_ground = groundup * model.radius - state.y[2];
   const Real t20 = state.y[6] * Real(0.5);
-  const Real t24 = (q0r2_y + q0r2_y) / groundup * model.c13;
+  const Real t24 = (q0r2_y + q0r2_y) / groundup * model.c16;
   const Real t26 = q0d1 * t24;
   const Real t29 = t20 * t26;
   const Real t30 = state.y[5] * t24;
@@ -397,147 +388,124 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real q013 = state.y[4] * q0d3;
   const Real q002 = state.y[3] * q0d2;
   const Real q003 = q0d3 * state.y[3];
-  const Real q0r0_x = q033 - (Real(1.0) - q022);
-  const Real q0r0_y = q012 - q003;
-  const Real q0r0_z = q013 + q002;
   const Real q0r1_x = q012 + q003;
-  const Real t55 = Real(1.0) - q011;
-  const Real q0r1_y = q033 - t55;
+  const Real t51 = Real(1.0) - q011;
+  const Real q0r1_y = q033 - t51;
   const Real q0r1_z = q023 - q001;
   const Real q0r2_x = q013 - q002;
-  const Real q0r2_z = q022 - t55;
-  const Real t60 = q0r2_y * q0r1_y;
-  const Real groundc_y = model.radius * (t60 / groundup);
+  const Real q0r2_z = q022 - t51;
+  const Real groundc_y = model.radius * (q0r2_y * q0r1_y / groundup);
   const Real groundc_z = model.radius * (t12 / groundup);
   const Real grounds1bn0_x = q0r1_x * groundc_z + q0r2_x * groundc_y;
   const Real grounds1bn0_y = q0r1_y * groundc_z - q0r2_y * groundc_y;
   const Real grounds1bn0_z = q0r1_z * groundc_z - q0r2_z * groundc_y;
-  const Real grounds1bf_x = q0r0_y * q0r0_y + (q0r0_x * q0r0_x + q0r0_z * q0r0_z);
-  const Real grounds1bf_y = q0r0_y * q0r1_y + (q0r0_x * q0r1_x - q0r0_z * q0r1_z);
-  const Real t85 = q0r2_y * q0r0_y;
-  const Real grounds1bf_z = t85 - (q0r0_x * q0r2_x + q0r0_z * q0r2_z);
-  const Real groundc_x = model.radius * (t85 / groundup);
-  const Real grounds2bn0_x = q0r0_x * groundc_z + q0r2_x * groundc_x;
-  const Real grounds2bn0_y = q0r0_y * groundc_z - q0r2_y * groundc_x;
-  const Real grounds2bn0_z = q0r0_z * groundc_z + q0r2_z * groundc_x;
-  const Real grounds2bf_y = q0r1_y * q0r1_y + (q0r1_x * q0r1_x + q0r1_z * q0r1_z);
-  const Real grounds2bf_z = q0r1_x * q0r2_x - (t60 + q0r1_z * q0r2_z);
-  const Real t112 = grounds1bf_y * model.c6;
-  const Real t113 = grounds1bf_z * model.c6;
-  const Real t115 = grounds1bn0_x * model.c14;
-  const Real t116 = grounds1bn0_z * model.c14;
-  const Real t120 = t37 * t115 + (t113 - t41 * t116);
-  const Real t123 = grounds1bf_y * t112;
-  const Real t130 = grounds2bf_y * model.c6;
-  const Real t131 = grounds2bf_z * model.c6;
-  const Real t132 = grounds2bn0_x * model.c14;
-  const Real t133 = grounds2bn0_y * model.c8;
-  const Real t134 = grounds2bn0_z * model.c14;
-  const Real t138 = t37 * t132 + (t131 + t41 * t134);
-  const Real t154 = Real(1.0) / (model.c14 * (t37 * t37 + t41 * t41) + model.c9);
-  const Real t155 = t120 * t154;
-  const Real t165 = t138 * t154;
-  const Real t172 = grounds1bf_y * t130 + (grounds1bf_x * t112 - (grounds1bf_z * t131 + (grounds1bn0_x * t132
-      + (grounds1bn0_y * t133 - (grounds1bn0_z * t134 + t120 * t165)))));
-  const Real t174 = Real(1.0) / (model.c6 * (grounds1bf_x * grounds1bf_x) + (t123 + (grounds1bf_z * t113 +
-      (grounds1bn0_x * t115 + (grounds1bn0_y * grounds1bn0_y * model.c8 + (grounds1bn0_z * t116 - t120 *
-      t155))))) + Real(1.5000000000000002e-10));
-  const Real t175 = t172 * t174;
-  const Real t186 = Real(1.0) / (t123 + (grounds2bf_y * t130 + (grounds2bf_z * t131 + (grounds2bn0_x * t132 +
-      (grounds2bn0_y * t133 + (grounds2bn0_z * t134 - (t138 * t165 + t172 * t175)))))) + Real(2.5e-10));
-  const Real t187 = g_ground * t155;
-  const Real t193 = t186 * (g_ground * t165 + t175 * t187);
-  const Real t195 = t174 * t187 + t175 * t193;
-  const Real t199 = t155 * t195 + (g_ground * t154 + t165 * t193);
-  const Real t223 = model.c6 * (grounds1bf_x * t195 - grounds1bf_y * t193);
-  const Real t224 = model.c6 * (grounds1bf_y * t195 - grounds2bf_y * t193);
-  const Real t225 = model.c6 * (grounds1bf_z * t195 - (t199 - grounds2bf_z * t193));
-  const Real t226 = model.c14 * (grounds1bn0_x * t195 - (t37 * t199 - grounds2bn0_x * t193));
-  const Real t227 = model.c8 * (grounds1bn0_y * t195 + grounds2bn0_y * t193);
-  const Real t228 = model.c14 * (grounds1bn0_z * t195 + (t41 * t199 - grounds2bn0_z * t193));
-  const Real t234 = Real(0.5) * t226;
-  const Real t235 = Real(0.5) * t227;
-  const Real t236 = Real(0.5) * t228;
-  const Real t243 = state.y[3] * t234 - (state.y[4] - (state.y[5] * t236 + state.y[6] * t235));
-  const Real t250 = state.y[3] * t235 + (state.y[5] - (state.y[6] * t234 - state.y[4] * t236));
-  const Real t254 = state.y[4] * t234 + (state.y[3] - (state.y[5] * t235 - state.y[6] * t236));
-  const Real t260 = state.y[3] * t236 - (state.y[6] + (state.y[4] * t235 + state.y[5] * t234));
-  const Real t269 = Real(1.0) / detail::square_root(t243 * t243 + (t254 * t254 + (t250 * t250 + t260 *
-      t260)));
-  const Real t270 = t254 * t269;
-  const Real t271 = t243 * t269;
-  const Real t272 = t250 * t269;
-  const Real t273 = t260 * t269;
-  const Real q0d1_2 = Real(2.0) * t271;
-  const Real q0d3_2 = Real(2.0) * t273;
-  const Real q023_2 = t272 * q0d3_2;
-  const Real q001_2 = t270 * q0d1_2;
+  const Real q0r0_x = q033 - (Real(1.0) - q022);
+  const Real q0r0_y = q012 - q003;
+  const Real q0r0_z = q013 + q002;
+  const Real groundc_x = model.radius * (q0r2_y * q0r0_y / groundup);
+  const Real grounds2bn0_x = groundc_z * q0r0_x + q0r2_x * groundc_x;
+  const Real grounds2bn0_y = groundc_z * q0r0_y - q0r2_y * groundc_x;
+  const Real grounds2bn0_z = groundc_z * q0r0_z + q0r2_z * groundc_x;
+  const Real t89 = grounds1bn0_x * model.c17;
+  const Real t90 = grounds1bn0_z * model.c17;
+  const Real t93 = t37 * t89 - t41 * t90;
+  const Real t99 = grounds2bn0_x * model.c17;
+  const Real t100 = grounds2bn0_y * model.c7;
+  const Real t101 = grounds2bn0_z * model.c17;
+  const Real t104 = t37 * t99 + t41 * t101;
+  const Real t115 = Real(1.0) / (model.c17 * (t37 * t37 + t41 * t41) + model.c8);
+  const Real t116 = t93 * t115;
+  const Real t123 = t104 * t115;
+  const Real t127 = grounds1bn0_y * t100 + (grounds1bn0_x * t99 - (grounds1bn0_z * t101 + t93 * t123));
+  const Real t129 = Real(1.0) / (grounds1bn0_x * t89 + (grounds1bn0_y * grounds1bn0_y * model.c7 +
+      (grounds1bn0_z * t90 - t93 * t116)) + model.c9);
+  const Real t130 = t127 * t129;
+  const Real t138 = Real(1.0) / (grounds2bn0_x * t99 + (grounds2bn0_y * t100 + (grounds2bn0_z * t101 - (t104 *
+      t123 + t127 * t130))) + model.c10);
+  const Real t139 = g_ground * t116;
+  const Real t145 = t138 * (g_ground * t123 - t130 * t139);
+  const Real t147 = t129 * t139 - t130 * t145;
+  const Real t151 = t116 * t147 + (g_ground * t115 + t123 * t145);
+  const Real t166 = t147 * model.c13;
+  const Real t167 = t145 * model.c13;
+  const Real t168 = t151 * model.c13;
+  const Real t169 = model.c17 * (grounds1bn0_x * t147 - (t37 * t151 - grounds2bn0_x * t145));
+  const Real t170 = model.c7 * (grounds1bn0_y * t147 + grounds2bn0_y * t145);
+  const Real t171 = model.c17 * (grounds1bn0_z * t147 + (t41 * t151 - grounds2bn0_z * t145));
+  const Real t177 = Real(0.5) * t169;
+  const Real t178 = Real(0.5) * t170;
+  const Real t179 = Real(0.5) * t171;
+  const Real t186 = state.y[3] * t177 - (state.y[4] - (state.y[5] * t179 + state.y[6] * t178));
+  const Real t193 = state.y[3] * t178 + (state.y[5] - (state.y[6] * t177 - state.y[4] * t179));
+  const Real t197 = state.y[4] * t177 + (state.y[3] - (state.y[5] * t178 - state.y[6] * t179));
+  const Real t203 = state.y[3] * t179 - (state.y[6] + (state.y[4] * t178 + state.y[5] * t177));
+  const Real t212 = Real(1.0) / detail::square_root(t186 * t186 + (t197 * t197 + (t193 * t193 + t203 *
+      t203)));
+  const Real t213 = t197 * t212;
+  const Real t214 = t186 * t212;
+  const Real t215 = t193 * t212;
+  const Real t216 = t203 * t212;
+  const Real q0d1_2 = Real(2.0) * t214;
+  const Real q0d3_2 = Real(2.0) * t216;
+  const Real q023_2 = t215 * q0d3_2;
+  const Real q001_2 = t213 * q0d1_2;
   const Real q0r2_y_2 = q023_2 + q001_2;
-  const Real t280 = Real(1.0) - q0r2_y_2 * q0r2_y_2;
-  const Real groundup_2 = detail::square_root(t280);
-  const Real t282 = Real(0.5) * t273;
-  const Real t285 = model.c13 * ((q0r2_y_2 + q0r2_y_2) / groundup_2);
-  const Real t287 = q0d1_2 * t285;
-  const Real t290 = t282 * t287;
-  const Real t291 = t272 * t285;
-  const Real q0d2_2 = Real(2.0) * t272;
-  const Real q011_2 = t271 * q0d1_2;
-  const Real q022_2 = t272 * q0d2_2;
-  const Real q033_2 = t273 * q0d3_2;
-  const Real q012_2 = t271 * q0d2_2;
-  const Real q013_2 = t271 * q0d3_2;
-  const Real q002_2 = t270 * q0d2_2;
-  const Real q003_2 = t270 * q0d3_2;
-  const Real q0r0_x_2 = q033_2 - (Real(1.0) - q022_2);
-  const Real q0r0_y_2 = q012_2 - q003_2;
-  const Real q0r0_z_2 = q013_2 + q002_2;
+  const Real t223 = Real(1.0) - q0r2_y_2 * q0r2_y_2;
+  const Real groundup_2 = detail::square_root(t223);
+  const Real t225 = Real(0.5) * t216;
+  const Real t228 = model.c16 * ((q0r2_y_2 + q0r2_y_2) / groundup_2);
+  const Real t230 = q0d1_2 * t228;
+  const Real t233 = t225 * t230;
+  const Real t234 = t215 * t228;
+  const Real q0d2_2 = Real(2.0) * t215;
+  const Real q011_2 = t214 * q0d1_2;
+  const Real q022_2 = t215 * q0d2_2;
+  const Real q033_2 = t216 * q0d3_2;
+  const Real q012_2 = t214 * q0d2_2;
+  const Real q013_2 = t214 * q0d3_2;
+  const Real q002_2 = t213 * q0d2_2;
+  const Real q003_2 = t213 * q0d3_2;
   const Real q0r1_x_2 = q012_2 + q003_2;
-  const Real t316 = Real(1.0) - q011_2;
-  const Real q0r1_y_2 = q033_2 - t316;
+  const Real t255 = Real(1.0) - q011_2;
+  const Real q0r1_y_2 = q033_2 - t255;
   const Real q0r1_z_2 = q023_2 - q001_2;
   const Real q0r2_x_2 = q013_2 - q002_2;
-  const Real q0r2_z_2 = q022_2 - t316;
-  const Real t321 = q0r2_y_2 * q0r1_y_2;
-  const Real groundc_y_2 = model.radius * (t321 / groundup_2);
-  const Real groundc_z_2 = model.radius * (t280 / groundup_2);
+  const Real q0r2_z_2 = q022_2 - t255;
+  const Real groundc_y_2 = model.radius * (q0r2_y_2 * q0r1_y_2 / groundup_2);
+  const Real groundc_z_2 = model.radius * (t223 / groundup_2);
   const Real grounds1bn0_x_2 = q0r1_x_2 * groundc_z_2 - q0r2_x_2 * groundc_y_2;
   const Real grounds1bn0_y_2 = q0r1_y_2 * groundc_z_2 + q0r2_y_2 * groundc_y_2;
   const Real grounds1bn0_z_2 = q0r1_z_2 * groundc_z_2 + q0r2_z_2 * groundc_y_2;
-  const Real grounds1bf_x_2 = q0r0_y_2 * q0r0_y_2 + (q0r0_x_2 * q0r0_x_2 + q0r0_z_2 * q0r0_z_2);
-  const Real grounds1bf_y_2 = q0r0_y_2 * q0r1_y_2 + (q0r0_x_2 * q0r1_x_2 - q0r0_z_2 * q0r1_z_2);
-  const Real t346 = q0r2_y_2 * q0r0_y_2;
-  const Real grounds1bf_z_2 = t346 - (q0r0_x_2 * q0r2_x_2 + q0r0_z_2 * q0r2_z_2);
-  const Real groundc_x_2 = model.radius * (t346 / groundup_2);
-  const Real grounds2bn0_x_2 = q0r0_x_2 * groundc_z_2 - q0r2_x_2 * groundc_x_2;
-  const Real grounds2bn0_y_2 = q0r0_y_2 * groundc_z_2 + q0r2_y_2 * groundc_x_2;
-  const Real grounds2bn0_z_2 = q0r0_z_2 * groundc_z_2 - q0r2_z_2 * groundc_x_2;
-  const Real grounds2bf_y_2 = q0r1_y_2 * q0r1_y_2 + (q0r1_x_2 * q0r1_x_2 + q0r1_z_2 * q0r1_z_2);
-  const Real grounds2bf_z_2 = q0r1_x_2 * q0r2_x_2 - (t321 + q0r1_z_2 * q0r2_z_2);
-  const Real t379 = (t282 * (q0d3_2 * t285) - (Real(0.5) * (t271 * t287) + (t272 * t291 - t270 * (t270 *
-      t285)))) * state.z[3] - (state.z[2] + (t290 + (t290 - Real(2.0) * (t270 * t291))) * state.z[5]);
-  const Real t398 = grounds1bf_y_2 * state.z[1] + (grounds1bf_x_2 * state.z[0] + (grounds1bf_z_2 * state.z[2]
-      + (grounds1bn0_x_2 * state.z[3] + (grounds1bn0_y_2 * state.z[4] + (grounds1bn0_z_2 * state.z[5] + t155 *
-      t379)))));
-  const Real t410 = t186 * (grounds2bf_y_2 * state.z[1] + (grounds1bf_y_2 * state.z[0] - (grounds2bf_z_2 *
-      state.z[2] + (grounds2bn0_x_2 * state.z[3] + (grounds2bn0_y_2 * state.z[4] - (grounds2bn0_z_2 *
-      state.z[5] + (t165 * t379 + t175 * t398)))))));
-  const Real t412 = t174 * t398 + t175 * t410;
-  const Real t416 = t155 * t412 + (t154 * t379 + t165 * t410);
-  closed.y[0] = -(t223 - state.y[0]);
-  closed.y[1] = t224 + state.y[1];
-  closed.y[2] = state.y[2] - t225;
-  closed.y[3] = t270;
-  closed.y[4] = -t271;
-  closed.y[5] = t272;
-  closed.y[6] = -t273;
-  closed.z[0] = state.z[0] - model.c6 * (grounds1bf_x * t412 - grounds1bf_y * t410);
-  closed.z[1] = state.z[1] + model.c6 * (grounds1bf_y * t412 - grounds2bf_y * t410);
-  closed.z[2] = state.z[2] - model.c6 * (grounds1bf_z * t412 - (t416 - grounds2bf_z * t410));
-  closed.z[3] = state.z[3] - model.c14 * (grounds1bn0_x * t412 - (t37 * t416 - grounds2bn0_x * t410));
-  closed.z[4] = state.z[4] + model.c8 * (grounds1bn0_y * t412 + grounds2bn0_y * t410);
-  closed.z[5] = state.z[5] - model.c14 * (grounds1bn0_z * t412 + (t41 * t416 - grounds2bn0_z * t410));
-  closed.regularity = Real(1.0) / (t186 * (t154 * t174)) * Real(0.5333333333333331);
-  closed.opening = t224 * t224 + (t223 * t223 + (t225 * t225 + (t226 * t226 + (t227 * t227 + t228 * t228))));
+  const Real q0r0_x_2 = q033_2 - (Real(1.0) - q022_2);
+  const Real q0r0_y_2 = q012_2 - q003_2;
+  const Real q0r0_z_2 = q013_2 + q002_2;
+  const Real groundc_x_2 = model.radius * (q0r2_y_2 * q0r0_y_2 / groundup_2);
+  const Real grounds2bn0_x_2 = groundc_z_2 * q0r0_x_2 - q0r2_x_2 * groundc_x_2;
+  const Real grounds2bn0_y_2 = groundc_z_2 * q0r0_y_2 + q0r2_y_2 * groundc_x_2;
+  const Real grounds2bn0_z_2 = groundc_z_2 * q0r0_z_2 - q0r2_z_2 * groundc_x_2;
+  const Real t299 = (t225 * (q0d3_2 * t228) - (Real(0.5) * (t214 * t230) + (t215 * t234 - t213 * (t213 *
+      t228)))) * state.z[3] - (state.z[2] + (t233 + (t233 - Real(2.0) * (t213 * t234))) * state.z[5]);
+  const Real t310 = grounds1bn0_x_2 * state.z[3] + (state.z[0] + (grounds1bn0_y_2 * state.z[4] +
+      (grounds1bn0_z_2 * state.z[5] + t116 * t299)));
+  const Real t320 = t138 * (grounds2bn0_x_2 * state.z[3] - (state.z[1] - (grounds2bn0_y_2 * state.z[4] -
+      (grounds2bn0_z_2 * state.z[5] + (t123 * t299 - t130 * t310)))));
+  const Real t322 = t129 * t310 + t130 * t320;
+  const Real t326 = t116 * t322 + (t115 * t299 - t123 * t320);
+  closed.y[0] = -(t166 - state.y[0]);
+  closed.y[1] = -(t167 - state.y[1]);
+  closed.y[2] = state.y[2] + t168;
+  closed.y[3] = t213;
+  closed.y[4] = -t214;
+  closed.y[5] = t215;
+  closed.y[6] = -t216;
+  closed.z[0] = state.z[0] - model.c13 * t322;
+  closed.z[1] = state.z[1] + model.c13 * t320;
+  closed.z[2] = state.z[2] + model.c13 * t326;
+  closed.z[3] = state.z[3] - model.c17 * (grounds1bn0_x * t322 - (t37 * t326 + grounds2bn0_x * t320));
+  closed.z[4] = state.z[4] + model.c7 * (grounds1bn0_y * t322 - grounds2bn0_y * t320);
+  closed.z[5] = state.z[5] - model.c17 * (grounds1bn0_z * t322 + (t41 * t326 + grounds2bn0_z * t320));
+  closed.regularity = Real(1.0) / (t138 * (t115 * t129)) * Real(0.5333333333333331);
+  closed.opening = t167 * t167 + (t166 * t166 + (t168 * t168 + (t169 * t169 + (t170 * t170 + t171 * t171))));
   state = closed;
 }
 
@@ -552,8 +520,10 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real t12 = q0r2_y * q0r2_y - Real(1.0);
   const Real groundup = detail::square_root(-t12);
   const Real g_ground = groundup * model.radius - state.y[2];
-  const Real t19 = q0r2_y + q0r2_y;
-  const Real t22 = Real(1.0) / groundup * Real(0.5);
+  const Real t22 = (q0r2_y + q0r2_y) / groundup * model.c16;
+  const Real t24 = q0d1 * t22;
+  const Real t26 = state.y[5] * t22;
+  const Real t31 = state.y[3] * t26;
   const Real q0d2 = Real(2.0) * state.y[5];
   const Real q011 = state.y[4] * q0d1;
   const Real q022 = state.y[5] * q0d2;
@@ -562,42 +532,35 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real q013 = state.y[4] * q0d3;
   const Real q002 = state.y[3] * q0d2;
   const Real q003 = q0d3 * state.y[3];
-  const Real q0r0_x = q033 - (Real(1.0) - q022);
-  const Real q0r0_y = q012 - q003;
-  const Real q0r0_z = q013 + q002;
   const Real q0r1_x = q012 + q003;
-  const Real t36 = Real(1.0) - q011;
-  const Real q0r1_y = q033 - t36;
+  const Real t41 = Real(1.0) - q011;
+  const Real q0r1_y = q033 - t41;
   const Real q0r1_z = q023 - q001;
   const Real q0r2_x = q013 - q002;
-  const Real q0r2_z = q022 - t36;
-  const Real t41 = q0r2_y * q0r1_y;
-  const Real groundc_y = model.radius * (t41 / groundup);
+  const Real q0r2_z = q022 - t41;
+  const Real groundc_y = model.radius * (q0r2_y * q0r1_y / groundup);
   const Real groundc_z = model.radius * (t12 / groundup);
   const Real grounds1bn0_x = q0r1_x * groundc_z + q0r2_x * groundc_y;
   const Real grounds1bn0_y = q0r1_y * groundc_z - q0r2_y * groundc_y;
   const Real grounds1bn0_z = q0r1_z * groundc_z - q0r2_z * groundc_y;
-  const Real grounds1bf_x = q0r0_y * q0r0_y + (q0r0_x * q0r0_x + q0r0_z * q0r0_z);
-  const Real grounds1bf_y = q0r0_y * q0r1_y + (q0r0_x * q0r1_x - q0r0_z * q0r1_z);
-  const Real t66 = q0r2_y * q0r0_y;
-  const Real grounds1bf_z = t66 - (q0r0_x * q0r2_x + q0r0_z * q0r2_z);
-  const Real groundc_x = model.radius * (t66 / groundup);
-  const Real grounds2bn0_x = q0r0_x * groundc_z + q0r2_x * groundc_x;
-  const Real grounds2bn0_y = q0r0_y * groundc_z - q0r2_y * groundc_x;
-  const Real grounds2bn0_z = q0r0_z * groundc_z + q0r2_z * groundc_x;
-  const Real grounds2bf_y = q0r1_y * q0r1_y + (q0r1_x * q0r1_x + q0r1_z * q0r1_z);
-  const Real grounds2bf_z = q0r1_x * q0r2_x - (t41 + q0r1_z * q0r2_z);
-  const Real grounds0 = grounds1bf_y * state.z[1] - (grounds1bf_x * state.z[0] + (grounds1bf_z * state.z[2] +
-      (grounds1bn0_x * state.z[3] - (grounds1bn0_y * state.z[4] - grounds1bn0_z * state.z[5]))));
-  const Real grounds1 = grounds2bf_y * state.z[1] - (grounds1bf_y * state.z[0] - (grounds2bf_z * state.z[2] +
-      (grounds2bn0_x * state.z[3] - (grounds2bn0_y * state.z[4] + grounds2bn0_z * state.z[5]))));
+  const Real q0r0_x = q022 - (Real(1.0) - q033);
+  const Real q0r0_y = q012 - q003;
+  const Real q0r0_z = q013 + q002;
+  const Real groundc_x = model.radius * (q0r2_y * q0r0_y / groundup);
+  const Real grounds2bn0_x = groundc_z * q0r0_x + q0r2_x * groundc_x;
+  const Real grounds2bn0_y = groundc_z * q0r0_y - q0r2_y * groundc_x;
+  const Real grounds2bn0_z = groundc_z * q0r0_z + q0r2_z * groundc_x;
+  const Real grounds0 = grounds1bn0_z * state.z[5] - (grounds1bn0_y * state.z[4] - (state.z[0] + grounds1bn0_x
+      * state.z[3]));
+  const Real grounds1 = grounds2bn0_z * state.z[5] + (grounds2bn0_y * state.z[4] - (state.z[1] + grounds2bn0_x
+      * state.z[3]));
   g[0] = -g_ground;
   g[1] = Real(0.0);
   g[2] = Real(0.0);
-  g_rate[0] = state.z[2] + model.radius * (state.z[3] * (t22 * (t19 * (state.y[3] * state.y[3] + Real(0.5) *
-      (q033 - (q011 + q022))))) - state.z[5] * (t22 * (t19 * q0r2_x)));
-  g_rate[1] = -grounds0;
-  g_rate[2] = grounds1;
+  g_rate[0] = state.z[5] * (t31 - (state.y[6] * t24 - t31)) + (state.z[2] - state.z[3] * ((state.y[4] * t24 -
+      state.y[6] * (q0d3 * t22)) * Real(0.5) + (state.y[5] * t26 - state.y[3] * (state.y[3] * t22))));
+  g_rate[1] = grounds0;
+  g_rate[2] = -grounds1;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -617,13 +580,15 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t20 = q0r2_y + q0r2_y;
   const Real t21 = Real(1.0) / groundup;
   const Real t22 = Real(0.5) * t21;
-  const Real t23 = t20 * t22;
-  const Real t25 = t23 * model.radius;
+  const Real t24 = t22 * model.radius;
+  const Real t25 = t20 * t24;
   const Real t27 = q0d1 * t25;
+  const Real t30 = q0d3 * t25;
   const Real t32 = Real(2.0) * (state.y[5] * t25);
   const Real t34 = t16 * t32;
-  const Real t38 = state.y[3] * (state.y[3] * t25) - (t18 * t32 + (t17 * t27 - t19 * (q0d3 * t25)));
-  const Real t41 = t34 + (t34 - state.y[6] * t27);
+  const Real t35 = Real(2.0) * (state.y[3] * t25);
+  const Real t39 = t16 * t35 - (t18 * t32 + (t17 * t27 - t19 * t30));
+  const Real t42 = t34 + (t34 - state.y[6] * t27);
   const Real q0d2 = Real(2.0) * state.y[5];
   const Real q011 = state.y[4] * q0d1;
   const Real q022 = state.y[5] * q0d2;
@@ -632,122 +597,106 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real q013 = state.y[4] * q0d3;
   const Real q002 = state.y[3] * q0d2;
   const Real q003 = q0d3 * state.y[3];
+  const Real q0r1_x = q012 + q003;
+  const Real t52 = Real(1.0) - q011;
+  const Real q0r1_y = q033 - t52;
+  const Real q0r1_z = q023 - q001;
+  const Real q0r2_x = q013 - q002;
+  const Real q0r2_z = q022 - t52;
+  const Real t57 = model.radius * q0r1_y;
+  const Real groundc_y = t25 * q0r1_y;
+  const Real groundc_z = model.radius * (t12 / groundup);
+  const Real grounds1bn0_x = q0r1_x * groundc_z + q0r2_x * groundc_y;
+  const Real grounds1bn0_y = t21 * t57;
+  const Real grounds1bn0_z = q0r1_z * groundc_z - q0r2_z * groundc_y;
   const Real q0r0_x = q022 - (Real(1.0) - q033);
   const Real q0r0_y = q012 - q003;
   const Real q0r0_z = q013 + q002;
-  const Real q0r1_x = q012 + q003;
-  const Real t55 = Real(1.0) - q011;
-  const Real q0r1_y = q033 - t55;
-  const Real q0r1_z = q023 - q001;
-  const Real q0r2_x = q013 - q002;
-  const Real q0r2_z = q022 - t55;
-  const Real t60 = model.radius * q0r1_y;
-  const Real groundc_y = t23 * t60;
-  const Real groundc_z = model.radius * (t12 / groundup);
-  const Real grounds1bn0_x = q0r1_x * groundc_z + q0r2_x * groundc_y;
-  const Real grounds1bn0_y = t21 * t60;
-  const Real grounds1bn0_z = q0r1_z * groundc_z - q0r2_z * groundc_y;
-  const Real grounds1bf_x = q0r0_z * q0r0_z + (q0r0_x * q0r0_x + q0r0_y * q0r0_y);
-  const Real grounds1bf_y = q0r0_z * q0r1_z - (q0r0_x * q0r1_x + q0r0_y * q0r1_y);
-  const Real grounds1bf_z = q0r0_z * q0r2_z + (q0r0_x * q0r2_x - q0r2_y * q0r0_y);
-  const Real t86 = model.radius * q0r0_y;
-  const Real groundc_x = t23 * t86;
-  const Real grounds2bn0_x = q0r0_x * groundc_z + q0r2_x * groundc_x;
-  const Real grounds2bn0_y = t21 * t86;
-  const Real grounds2bn0_z = q0r0_z * groundc_z + q0r2_z * groundc_x;
-  const Real grounds2bf_y = q0r1_z * q0r1_z + (q0r1_x * q0r1_x + q0r1_y * q0r1_y);
-  const Real grounds2bf_z = q0r1_z * q0r2_z - (q0r1_x * q0r2_x - q0r2_y * q0r1_y);
-  const Real t114 = grounds1bf_y * model.c6;
-  const Real t115 = grounds1bf_z * model.c6;
-  const Real t117 = grounds1bn0_x * model.c7;
-  const Real t118 = grounds1bn0_z * model.c7;
-  const Real t122 = t41 * t118 - (t115 - t38 * t117);
-  const Real t125 = grounds1bf_y * t114;
-  const Real t132 = grounds2bf_y * model.c6;
-  const Real t133 = grounds2bf_z * model.c6;
-  const Real t134 = grounds2bn0_x * model.c7;
-  const Real t135 = grounds2bn0_y * model.c8;
-  const Real t136 = grounds2bn0_z * model.c7;
-  const Real t140 = t41 * t136 + (t133 - t38 * t134);
-  const Real t156 = Real(1.0) / (model.c7 * (t38 * t38 + t41 * t41) + model.c9);
-  const Real t157 = t122 * t156;
-  const Real t167 = t140 * t156;
-  const Real t174 = t122 * t167 - (grounds1bn0_z * t136 - (grounds1bn0_y * t135 + (grounds1bn0_x * t134 +
-      (grounds1bf_z * t133 + (grounds1bf_x * t114 + grounds1bf_y * t132)))));
-  const Real t176 = Real(1.0) / (t122 * t157 - (grounds1bn0_z * t118 + (grounds1bn0_y * grounds1bn0_y *
-      model.c8 + (grounds1bn0_x * t117 + (grounds1bf_z * t115 + (model.c6 * (grounds1bf_x * grounds1bf_x) +
-      t125)))) + Real(1.5000000000000002e-10)));
-  const Real t177 = t174 * t176;
-  const Real t188 = Real(1.0) / (t174 * t177 - (t140 * t167 - (grounds2bn0_z * t136 + (grounds2bn0_y * t135 +
-      (grounds2bn0_x * t134 + (grounds2bf_z * t133 + (t125 + grounds2bf_y * t132)))) + Real(2.5e-10))));
-  const Real t195 = q0d1 * t17 - (state.y[3] * state.y[3] - (state.y[5] * state.y[5] - q0d3 * t19));
-  const Real t202 = t19 * state.z[5] + (t17 * state.z[3] + t18 * state.z[4]);
-  const Real t207 = t18 * state.z[5] + (t16 * state.z[3] - t19 * state.z[4]);
-  const Real t212 = t17 * state.z[5] - (t19 * state.z[3] + t16 * state.z[4]);
-  const Real t217 = t16 * state.z[5] - (t18 * state.z[3] - t17 * state.z[4]);
-  const Real t228 = q0d1 * t207;
-  const Real t233 = Real(2.0) * t228;
-  const Real t234 = Real(2.0) * t217;
-  const Real t235 = q0d3 * t217;
-  const Real t237 = Real(2.0) * t235;
-  const Real t239 = q0d3 * t207 + state.y[4] * t234;
-  const Real t242 = state.y[5] * t234 - q0d3 * t212;
-  const Real t244 = Real(2.0) * t212;
-  const Real t245 = q0d2 * t212;
-  const Real t247 = Real(2.0) * (state.y[3] * t207) - q0d1 * t202;
-  const Real t248 = state.y[3] * t202;
-  const Real t252 = state.y[3] * t234 - q0d3 * t202;
-  const Real t253 = t242 + t247;
-  const Real t254 = t242 - t247;
-  const Real t255 = Real(2.0) * t253;
-  const Real t262 = t23 * t253;
-  const Real t263 = t21 * t22 * t262;
-  const Real t278 = Real(2.0) * (state.y[5] * t202 + (state.y[3] * t212 + Real(0.5) * t239));
-  const Real t289 = Real(2.0) * t245;
-  const Real t291 = q0d2 * t207 - state.y[4] * t244;
-  const Real t294 = t239 - (q0d2 * t202 + state.y[3] * t244);
-  const Real t295 = t252 - t291;
-  const Real t296 = t252 + t291;
-  const Real t297 = t237 - t289;
-  const Real t304 = q0r2_y * t295;
-  const Real t314 = t233 + t237;
-  const Real t315 = t233 - t289;
-  const Real t319 = q0r2_y * t314;
-  const Real t335 = t21 * groundc_y * t262 + t21 * (t60 * t253 + model.radius * t319);
-  const Real t340 = t21 * groundc_z * t262 + t25 * t255;
-  const Real t366 = q0r0_y * t314 - (q0r1_y * t295 - (q0r0_x * t296 + (q0r1_x * t297 - (q0r1_z * t294 + q0r0_z
-      * t254))));
-  const Real t378 = t21 * groundc_x * t262 + t21 * (t86 * t253 - model.radius * t304);
+  const Real t72 = model.radius * q0r0_y;
+  const Real groundc_x = t25 * q0r0_y;
+  const Real grounds2bn0_x = groundc_z * q0r0_x + q0r2_x * groundc_x;
+  const Real grounds2bn0_y = t21 * t72;
+  const Real grounds2bn0_z = groundc_z * q0r0_z + q0r2_z * groundc_x;
+  const Real t87 = grounds1bn0_x * model.c6;
+  const Real t88 = grounds1bn0_z * model.c6;
+  const Real t91 = t39 * t87 + t42 * t88;
+  const Real t97 = grounds2bn0_x * model.c6;
+  const Real t98 = grounds2bn0_y * model.c7;
+  const Real t99 = grounds2bn0_z * model.c6;
+  const Real t102 = t39 * t97 - t42 * t99;
+  const Real t113 = Real(1.0) / (model.c6 * (t39 * t39 + t42 * t42) + model.c8);
+  const Real t114 = t91 * t113;
+  const Real t121 = t102 * t113;
+  const Real t125 = t91 * t121 + (grounds1bn0_z * t99 - (grounds1bn0_x * t97 + grounds1bn0_y * t98));
+  const Real t127 = Real(1.0) / (t91 * t114 - (grounds1bn0_z * t88 + (grounds1bn0_y * grounds1bn0_y * model.c7
+      + (grounds1bn0_x * t87 + model.c9))));
+  const Real t128 = t125 * t127;
+  const Real t136 = Real(1.0) / (t125 * t128 - (t102 * t121 - (grounds2bn0_z * t99 + (grounds2bn0_y * t98 +
+      (grounds2bn0_x * t97 + model.c10)))));
+  const Real t141 = t19 * state.z[5] + (t17 * state.z[3] + t18 * state.z[4]);
+  const Real t146 = t18 * state.z[5] + (t16 * state.z[3] - t19 * state.z[4]);
+  const Real t151 = t17 * state.z[5] - (t19 * state.z[3] + t16 * state.z[4]);
+  const Real t156 = t16 * state.z[5] - (t18 * state.z[3] - t17 * state.z[4]);
+  const Real t161 = Real(2.0) * t146;
+  const Real t162 = q0d2 * t146;
+  const Real t166 = q0d1 * t161;
+  const Real t167 = Real(2.0) * t156;
+  const Real t169 = q0d3 * t167;
+  const Real t171 = q0d3 * t146 + state.y[4] * t167;
+  const Real t174 = state.y[5] * t167 - q0d3 * t151;
+  const Real t176 = Real(2.0) * t151;
+  const Real t177 = q0d2 * t151;
+  const Real t179 = state.y[3] * t161 - q0d1 * t141;
+  const Real t180 = q0d2 * t141;
+  const Real t182 = state.y[3] * t167 - q0d3 * t141;
+  const Real t183 = t174 + t179;
+  const Real t185 = t20 * t183;
+  const Real t190 = t22 * t185;
+  const Real t191 = model.radius * t185;
+  const Real t194 = t21 * groundc_z * t190;
+  const Real t196 = groundc_x * state.z[5];
+  const Real t199 = groundc_z * state.z[5];
+  const Real t204 = groundc_x * state.z[3];
+  const Real t207 = q0r2_x * state.z[3] - (q0r2_z * state.z[5] - q0r2_y * state.z[4]);
+  const Real t210 = q0r0_x * state.z[3] - (q0r0_z * state.z[5] + q0r0_y * state.z[4]);
+  const Real t211 = groundc_z * state.z[3];
+  const Real t212 = t21 * t207;
+  const Real t216 = groundc_z * state.z[4] - t25 * t207;
+  const Real t217 = groundc_y * state.z[5];
+  const Real t221 = groundc_y * state.z[3];
+  const Real t224 = q0r1_x * state.z[3] + (q0r1_z * state.z[5] - q0r1_y * state.z[4]);
+  const Real t233 = t196 - t211;
+  const Real t235 = t199 + t204;
+  const Real t264 = t167 * (t25 * t151);
+  const Real t270 = t141 * (t25 * t161);
   const Real rww00 = state.z[4] * state.z[5];
   const Real rww02 = state.z[3] * state.z[4];
-  const Real t406 = rww00 * model.c15;
-  const Real t407 = rww02 * model.c15;
-  const Real t421 = model.radius * (state.z[3] * (t20 * t195 * t263 + t22 * (t195 * t255 + t20 * (t248 + (t248
-      + (t228 - (t235 + t245)))))) + state.z[5] * (t20 * q0r2_x * t263 + t22 * (q0r2_x * t255 + t20 * t278)))
-      + (t41 * t407 - (t38 * t406 - model.c10));
-  const Real t431 = t157 * t421 - (grounds1bn0_z * t407 - (grounds1bn0_x * t406 + (grounds1bf_z * model.c10 -
-      (state.z[1] * t366 + (state.z[0] * ((q0r0_y + q0r0_y) * t295 - ((q0r0_x + q0r0_x) * t297 + (q0r0_z +
-      q0r0_z) * t294)) + (state.z[2] * (q0r0_x * t278 + (q0r2_x * t297 + (t304 - (q0r0_y * t253 - (q0r2_z *
-      t294 + q0r0_z * t315))))) - (state.z[3] * (q0r1_x * t340 + (groundc_z * t296 + (groundc_y * t278 +
-      q0r2_x * t335))) - (state.z[4] * (q0r1_y * t340 + (groundc_z * t314 - (groundc_y * t253 + q0r2_y *
-      t335))) - state.z[5] * (q0r1_z * t340 + (groundc_z * t254 - (groundc_y * t315 + q0r2_z *
-      t335)))))))))));
-  const Real t446 = t188 * (t177 * t431 - (t167 * t421 - (grounds2bn0_z * t407 + (grounds2bn0_x * t406 +
-      (grounds2bf_z * model.c10 + (state.z[1] * ((q0r1_y + q0r1_y) * t314 + ((q0r1_x + q0r1_x) * t296 +
-      (q0r1_z + q0r1_z) * t254)) - (state.z[0] * t366 - (state.z[2] * (q0r1_x * t278 + (q0r2_x * t296 - (t319
-      + (q0r1_y * t253 + (q0r2_z * t254 + q0r1_z * t315))))) + (state.z[3] * (q0r2_x * t378 + (groundc_x *
-      t278 + (groundc_z * t297 + q0r0_x * t340))) + (state.z[4] * (q0r2_y * t378 + (groundc_x * t253 +
-      (groundc_z * t295 - q0r0_y * t340))) - state.z[5] * (q0r2_z * t378 + (groundc_x * t315 + (groundc_z *
-      t294 + q0r0_z * t340)))))))))))));
-  const Real t448 = t176 * t431 - t177 * t446;
-  const Real t452 = t167 * t446 - (t156 * t421 - t157 * t448);
-  const Real t454 = t452 * Real(4.9999999999999995e-11);
-  const Real t458 = Real(1.5000000000000002e-10) * t448 + t157 * t454;
-  const Real t465 = t188 * (t177 * t458 - (Real(2.5e-10) * t446 + t167 * t454));
-  const Real t467 = t176 * t458 - t177 * t465;
-  lambda[0] = -(t167 * t465 + (t157 * t467 - (t452 + t156 * t454)));
-  lambda[1] = -(t448 - t467);
-  lambda[2] = t446 - t465;
+  const Real t291 = rww00 * model.c18;
+  const Real t292 = rww02 * model.c18;
+  const Real t312 = t42 * t292 - (t39 * t291 + (Real(2.0) * (t183 * (t24 * t183)) + (t191 * (t21 * t22 * t190)
+      - (t270 + (t270 + (t264 + (t264 + (Real(0.5) * (t141 * (t35 * state.z[3] + (t32 * state.z[5] + t30 *
+      state.z[4])) + (t146 * (t27 * state.z[3] - (t32 * state.z[4] - t30 * state.z[5])) + (t156 * (t35 *
+      state.z[4] - (t30 * state.z[3] - t27 * state.z[5])) + t151 * (t35 * state.z[5] - (t32 * state.z[3] + t27
+      * state.z[4]))))) + model.c12))))))));
+  const Real t331 = t221 * (t171 + t180) + (t211 * (t162 + t182) + (t114 * t312 - (grounds1bn0_z * t292 -
+      (grounds1bn0_x * t291 + (t176 * (state.y[5] * t217 + (state.y[3] * t221 - state.y[4] * t211)) - (t166 *
+      (t216 + t217) - (t177 * t217 - (t169 * t216 - ((t174 - t179) * t199 + (t57 * t183 * t212 + (t21 *
+      groundc_y * t190 * t207 + (t191 * (t21 * t224) + (state.z[4] * (groundc_y * t183) + t194 *
+      t224)))))))))))));
+  const Real t353 = t136 * (t216 * (t162 - t182) + (t128 * t331 - (t121 * t312 + (grounds2bn0_z * t292 +
+      (grounds2bn0_x * t291 + (t176 * (state.y[5] * t233 + (state.y[3] * t235 + state.y[4] * t216)) - (t166 *
+      t196 - (t177 * t233 + (t169 * t211 - (t171 * (t199 - t204) - (t180 * t235 + (t191 * (t21 * t210) + (t194
+      * t210 + (t72 * t183 * t212 + (state.z[4] * (groundc_x * t183) + t21 * groundc_x * t190 *
+      t207)))))))))))))));
+  const Real t355 = t127 * t331 - t128 * t353;
+  const Real t359 = t121 * t353 - (t113 * t312 - t114 * t355);
+  const Real t361 = t359 * Real(4.9999999999999995e-11);
+  const Real t367 = t355 * Real(1.5000000000000002e-10) + t114 * t361;
+  const Real t374 = t136 * (t128 * t367 - (t353 * Real(2.5e-10) + t121 * t361));
+  const Real t376 = t127 * t367 - t128 * t374;
+  lambda[0] = -(t121 * t374 + (t114 * t376 - (t359 + t113 * t361)));
+  lambda[1] = -(t355 - t376);
+  lambda[2] = -(t353 - t374);
 }
 
 template <class Real> JOURDAIN_FUNCTION

@@ -288,16 +288,16 @@ Model<Real>::Model(const Parameters& parameters) noexcept {
   c7 = hill * c9;
   const Real disc_S_yy_2 = t9 + (t9 - disc_S_xx);
   const Real S0b_zz_3 = disc_S_xx + disc_S_yy_2;
-  c12 = Real(1.0) / S0b_zz_3;
-  c13 = Real(1.0) / Jy0;
-  c11 = Real(1.0) / mass;
+  c11 = Real(1.0) / S0b_zz_3;
+  c12 = Real(1.0) / Jy0;
+  c13 = Real(1.0) / mass;
   rdS00 = disc_S_xx - disc_S_yy_2;
-  c15 = q_2 * c11;
+  c15 = q_2 * c13;
   S0b_zz_2 = disc_S_xx - disc_S_yy;
   c17 = Real(0.5) * mass;
   c18 = Real(0.5) * radius;
   c19 = Real(1.0) / S0b_zz;
-  c20 = c12 * rdS00;
+  c20 = c11 * rdS00;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -611,8 +611,6 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real groundggi = Real(1.0) / groundggr;
   const Real t397 = Real(0.5) * groundggi;
   const Real t398 = model.radius * groundgo_3;
-  const Real t399 = expression_67 * groundgo_3;
-  const Real t400 = expression_64 * groundgo_3;
   const Real t401 = t397 * t398;
   const Real t402 = expression_67 * t401;
   const Real t403 = expression_64 * t401;
@@ -651,79 +649,60 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real groundgv_x = model.radius * groundggq_x;
   const Real groundgv_y = model.radius * groundggq_y;
   const Real groundgv_z = model.radius * groundggq_z;
-  const Real grounds1bf0_x = q0r1_x * groundgy_y - (q0r0_x * groundgy_x + q0r2_x * groundgy_z);
-  const Real grounds1bf0_y = q0r1_y * groundgy_y + (q0r0_y * groundgy_x + q0r2_y * groundgy_z);
-  const Real grounds1bf0_z = q0r1_z * groundgy_y - (q0r0_z * groundgy_x - q0r2_z * groundgy_z);
-  const Real t496 = groundgy_x * groundgv_y + groundgy_y * groundgv_x;
-  const Real t500 = groundgy_x * groundgv_z + groundgy_z * groundgv_x;
-  const Real t504 = groundgy_y * groundgv_z - groundgy_z * groundgv_y;
-  const Real grounds1bn0_x = q0r1_x * t500 + (q0r2_x * t496 + q0r0_x * t504);
-  const Real grounds1bn0_y = q0r1_y * t500 - (q0r2_y * t496 + q0r0_y * t504);
-  const Real grounds1bn0_z = q0r1_z * t500 - (q0r2_z * t496 - q0r0_z * t504);
-  const Real grounds1bf_x = q0r0_y * grounds1bf0_y - (q0r0_x * grounds1bf0_x + q0r0_z * grounds1bf0_z);
-  const Real grounds1bf_y = q0r1_y * grounds1bf0_y + (q0r1_x * grounds1bf0_x + q0r1_z * grounds1bf0_z);
-  const Real grounds1bf_z = q0r2_y * grounds1bf0_y - (q0r2_x * grounds1bf0_x - q0r2_z * grounds1bf0_z);
+  const Real t481 = groundgy_x * groundgv_y + groundgy_y * groundgv_x;
+  const Real t485 = groundgy_x * groundgv_z + groundgy_z * groundgv_x;
+  const Real t489 = groundgy_y * groundgv_z - groundgy_z * groundgv_y;
+  const Real grounds1bn0_x = q0r1_x * t485 + (q0r2_x * t481 + q0r0_x * t489);
+  const Real grounds1bn0_y = q0r1_y * t485 - (q0r2_y * t481 + q0r0_y * t489);
+  const Real grounds1bn0_z = q0r1_z * t485 - (q0r2_z * t481 - q0r0_z * t489);
   const Real groundgz_z = expression_67 * groundgo_4;
-  const Real grounds2bf0_x = q0r1_x * groundgo_4 + q0r2_x * groundgz_z;
-  const Real grounds2bf0_y = q0r1_y * groundgo_4 - q0r2_y * groundgz_z;
-  const Real grounds2bf0_z = q0r1_z * groundgo_4 - q0r2_z * groundgz_z;
-  const Real t545 = groundgo_4 * groundgv_z + groundgv_y * groundgz_z;
-  const Real t549 = q0r1_x * groundgz_z - q0r2_x * groundgo_4;
-  const Real grounds2bn0_x = q0r0_x * t545 - groundgv_x * t549;
-  const Real t555 = q0r1_y * groundgz_z + q0r2_y * groundgo_4;
-  const Real grounds2bn0_y = q0r0_y * t545 + groundgv_x * t555;
-  const Real t561 = q0r1_z * groundgz_z + q0r2_z * groundgo_4;
-  const Real grounds2bn0_z = q0r0_z * t545 - groundgv_x * t561;
-  const Real grounds2bf_x = q0r0_y * grounds2bf0_y - (q0r0_x * grounds2bf0_x + q0r0_z * grounds2bf0_z);
-  const Real grounds2bf_y = q0r1_y * grounds2bf0_y + (q0r1_x * grounds2bf0_x + q0r1_z * grounds2bf0_z);
-  const Real grounds2bf_z = q0r2_y * grounds2bf0_y - (q0r2_x * grounds2bf0_x - q0r2_z * grounds2bf0_z);
-  const Real t585 = groundgo_3 * groundgo_3;
-  const Real t589 = grounds1bf_x * model.c11;
-  const Real t590 = grounds1bf_y * model.c11;
-  const Real t591 = grounds1bf_z * model.c11;
-  const Real t593 = grounds1bn0_x * model.c12;
-  const Real t594 = grounds1bn0_z * model.c12;
-  const Real t603 = t399 * t590 - (t400 * t589 - (groundgo_3 * t591 + (t451 * t593 - t455 * t594)));
-  const Real t612 = grounds2bf_x * model.c11;
-  const Real t613 = grounds2bf_y * model.c11;
-  const Real t614 = grounds2bf_z * model.c11;
-  const Real t615 = grounds2bn0_x * model.c12;
-  const Real t616 = grounds2bn0_y * model.c13;
-  const Real t617 = grounds2bn0_z * model.c12;
-  const Real t626 = t399 * t613 - (t400 * t612 - (groundgo_3 * t614 + (t451 * t615 - t455 * t617)));
-  const Real t646 = Real(1.0) / (model.c11 * (groundgo_2 * t585) + model.c12 * (t451 * t451 + t455 * t455) +
+  const Real t506 = groundgo_4 * groundgv_z + groundgv_y * groundgz_z;
+  const Real t510 = q0r1_x * groundgz_z - q0r2_x * groundgo_4;
+  const Real grounds2bn0_x = q0r0_x * t506 - groundgv_x * t510;
+  const Real t516 = q0r1_y * groundgz_z + q0r2_y * groundgo_4;
+  const Real grounds2bn0_y = q0r0_y * t506 + groundgv_x * t516;
+  const Real t522 = q0r1_z * groundgz_z + q0r2_z * groundgo_4;
+  const Real grounds2bn0_z = q0r0_z * t506 - groundgv_x * t522;
+  const Real t531 = groundgo_3 * groundgo_3;
+  const Real t535 = grounds1bn0_x * model.c11;
+  const Real t536 = grounds1bn0_z * model.c11;
+  const Real t539 = t451 * t535 - t455 * t536;
+  const Real t548 = grounds2bn0_x * model.c11;
+  const Real t549 = grounds2bn0_y * model.c12;
+  const Real t550 = grounds2bn0_z * model.c11;
+  const Real t553 = t451 * t548 - t455 * t550;
+  const Real t557 = groundgo_4 * groundgo_4;
+  const Real t569 = Real(1.0) / (groundgo_2 * t531 * model.c13 + model.c11 * (t451 * t451 + t455 * t455) +
       Real(4.9999999999999995e-11));
-  const Real t647 = t603 * t646;
-  const Real t657 = t626 * t646;
-  const Real t664 = grounds1bf_y * t613 + (grounds1bf_x * t612 + (grounds1bf_z * t614 + (grounds1bn0_x * t615
-      - (grounds1bn0_y * t616 - (grounds1bn0_z * t617 - t603 * t657)))));
-  const Real t666 = Real(1.0) / (grounds1bf_y * t590 + (grounds1bf_x * t589 + (grounds1bf_z * t591 +
-      (grounds1bn0_x * t593 + (grounds1bn0_y * grounds1bn0_y * model.c13 + (grounds1bn0_z * t594 - t603 *
-      t647))))) + Real(1.5000000000000002e-10));
-  const Real t667 = t664 * t666;
-  const Real t678 = Real(1.0) / (grounds2bf_y * t613 + (grounds2bf_x * t612 + (grounds2bf_z * t614 +
-      (grounds2bn0_x * t615 + (grounds2bn0_y * t616 + (grounds2bn0_z * t617 - (t626 * t657 + t664 * t667))))))
-      + Real(2.5e-10));
-  const Real t683 = t391 * state.z[4] + (t390 * state.z[3] + t392 * state.z[5]);
-  const Real t688 = t392 * state.z[4] - (t389 * state.z[3] + t391 * state.z[5]);
-  const Real t693 = t389 * state.z[4] + (t392 * state.z[3] - t390 * state.z[5]);
-  const Real t698 = t390 * state.z[4] - (t391 * state.z[3] - t389 * state.z[5]);
-  const Real t699 = expression_58 * expression_61;
-  const Real expression_68 = model.c7 * t699;
+  const Real t570 = t539 * t569;
+  const Real t581 = t553 * t569;
+  const Real t585 = grounds1bn0_y * t549 - (grounds1bn0_x * t548 + (grounds1bn0_z * t550 - t539 * t581));
+  const Real t587 = Real(1.0) / (grounds1bn0_y * grounds1bn0_y * model.c12 + (grounds1bn0_x * t535 +
+      (grounds1bn0_z * t536 - (t539 * t570 - model.c13 * (groundgy_y * groundgy_y + (groundgy_x * groundgy_x +
+      groundgy_z * groundgy_z))))) + Real(1.5000000000000002e-10));
+  const Real t588 = t585 * t587;
+  const Real t599 = Real(1.0) / (model.c13 * (groundgo * t557) + (grounds2bn0_x * t548 + (grounds2bn0_y * t549
+      + (grounds2bn0_z * t550 - (t553 * t581 + t585 * t588)))) + Real(2.5e-10));
+  const Real t604 = t391 * state.z[4] + (t390 * state.z[3] + t392 * state.z[5]);
+  const Real t609 = t392 * state.z[4] - (t389 * state.z[3] + t391 * state.z[5]);
+  const Real t614 = t389 * state.z[4] + (t392 * state.z[3] - t390 * state.z[5]);
+  const Real t619 = t390 * state.z[4] - (t391 * state.z[3] - t389 * state.z[5]);
+  const Real t620 = expression_58 * expression_61;
+  const Real expression_68 = model.c7 * t620;
   const Real expression_69 = expression_63 * expression_66;
   const Real expression_70 = model.c9 * (expression_59 * expression_61);
   const Real groundggl = model.radius * groundggi;
   const Real groundggp = groundgs_xx - groundggq_x * groundggq_x;
   const Real groundggp_2 = groundgs_xy - groundggq_x * groundggq_y;
   const Real groundggp_3 = groundgs_yy - groundggq_y * groundggq_y;
-  const Real t712 = expression_69 * groundggp_2;
-  const Real groundggk = expression_68 * groundggp - t712;
+  const Real t633 = expression_69 * groundggp_2;
+  const Real groundggk = expression_68 * groundggp - t633;
   const Real groundggj = Real(1.0) - groundggl * groundggk;
   const Real groundggk_2 = expression_69 * groundggp - expression_70 * groundggp_2;
   const Real groundggj_2 = groundggl * groundggk_2;
   const Real groundggk_3 = expression_68 * groundggp_2 - expression_69 * groundggp_3;
   const Real groundggj_3 = groundggl * groundggk_3;
-  const Real groundggk_4 = t712 - expression_70 * groundggp_3;
+  const Real groundggk_4 = t633 - expression_70 * groundggp_3;
   const Real groundggj_4 = Real(1.0) + groundggl * groundggk_4;
   const Real groundggt = groundggj * groundggj_4 + groundggj_2 * groundggj_3;
   const Real groundggd = Real(1.0) / groundggt;
@@ -731,168 +710,151 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real groundgga_2 = groundggj_2 * groundggd;
   const Real groundgga_3 = groundggj_3 * groundggd;
   const Real groundgga_4 = groundggj * groundggd;
-  const Real t736 = groundggi * groundggi;
-  const Real t737 = Real(2.0) * t688;
-  const Real t739 = state.y[4] * t737;
-  const Real t740 = Real(2.0) * t739;
-  const Real t742 = Real(2.0) * t693;
-  const Real t745 = q0d2 * t688 - state.y[4] * t742;
-  const Real t746 = Real(2.0) * t698;
-  const Real t747 = q0d3 * t746;
-  const Real t749 = q0d3 * t693 + state.y[5] * t746;
-  const Real t752 = state.y[3] * t737 + q0d1 * t683;
-  const Real t754 = state.y[3] * t746 - q0d3 * t683;
-  const Real t755 = t749 - t752;
-  const Real t756 = t745 + t754;
-  const Real t760 = t740 - t747;
-  const Real t762 = q0r1_y * t756 + q0r0_y * t760;
-  const Real t766 = q0r2_y * t756 - q0r0_y * t755;
-  const Real t768 = q0r2_y * t760 - q0r1_y * t755;
-  const Real t776 = t766 - expression_64 * (t393 * t756);
-  const Real t777 = expression_67 * t762 + t776;
-  const Real t780 = t768 + expression_67 * ((q0r1_y + q0r1_y) * t760);
-  const Real t781 = expression_64 * t762 - t780;
-  const Real t785 = expression_64 * t766 + (t395 * t755 - expression_67 * t768);
-  const Real t787 = t785 + (expression_64 * t777 + expression_67 * t781);
-  const Real t788 = t397 * t787;
-  const Real t789 = t736 * t788;
-  const Real t794 = state.z[1] - model.radius * (groundggi * t781 - groundgge_y * t789);
-  const Real t797 = state.z[0] - model.radius * (groundggi * t777 - groundgge_x * t789);
-  const Real t803 = groundgga_3 * t797 + groundgga_4 * t794;
-  const Real t807 = groundgo_4 * groundgo_4;
-  const Real t808 = state.y[3] * t688;
-  const Real t812 = t391 * t737;
-  const Real t815 = t391 * t742;
-  const Real t817 = t815 * Real(4.0);
-  const Real t821 = t389 * t746;
-  const Real t822 = t391 * t746;
-  const Real t824 = q0d3 * t688 - state.y[4] * t746;
-  const Real t828 = state.y[3] * t742 - q0d2 * t683;
-  const Real t829 = t749 + t752;
-  const Real t830 = t745 - t754;
-  const Real t854 = model.wave * (groundgga * t797 - groundgga_2 * t794);
-  const Real t861 = expression_69 * t803 - model.c6 * (t699 * t854);
-  const Real t872 = model.hill * (expression_66 * (expression_62 * t854)) - expression_70 * t803;
-  const Real t877 = (expression_67 + expression_67) * t872;
-  const Real t881 = expression_67 * t861 + expression_64 * t872;
-  const Real t884 = groundgs_xx * t861 + (t777 + groundgs_xy * t872);
-  const Real t886 = groundggi * t884;
-  const Real t888 = groundgs_xy * t861 + (t781 + groundgs_yy * t872);
-  const Real t890 = groundggi * t888;
-  const Real t892 = groundgs_xz * t861 + (t785 - groundgs_yz * t872);
-  const Real t893 = groundggi * t892;
-  const Real t898 = t397 * (t892 + (groundgge_x * t861 + (expression_64 * t884 + (groundgge_y * t872 +
-      expression_67 * t888))));
-  const Real t900 = t736 * t898;
-  const Real t901 = groundgz_z * t872;
-  const Real t906 = Real(0.5) * (t585 * (groundgo_3 * ((expression_64 + expression_64) * t861 + t877)));
-  const Real t928 = q0r1_z * state.z[1] - (q0r2_z * state.z[2] - q0r0_z * state.z[0]);
-  const Real t931 = q0r1_y * state.z[1] - (q0r2_y * state.z[2] + q0r0_y * state.z[0]);
-  const Real t936 = q0r1_x * state.z[1] + (q0r2_x * state.z[2] + q0r0_x * state.z[0]);
-  const Real t937 = groundgv_x * state.z[5];
-  const Real t943 = grounds2bf0_z * state.z[0] + t545 * state.z[5];
-  const Real t945 = groundgv_x * state.z[4];
-  const Real t950 = groundgv_x * state.z[3];
-  const Real t961 = grounds2bf0_x * state.z[0] + t545 * state.z[3];
-  const Real t964 = q0r0_y * state.z[4] + (q0r0_z * state.z[5] + q0r0_x * state.z[3]);
-  const Real t970 = groundgo_4 * t937 + (grounds2bf0_z * state.z[2] + groundgz_z * t928);
-  const Real t980 = groundgo_4 * t950 + (grounds2bf0_x * state.z[2] + groundgz_z * t936);
-  const Real t987 = q0r1_y * t945 - (q0r1_z * t937 + (q0r1_x * t950 - (groundgv_y * t964 - (q0r2_z * t928 +
-      (q0r2_y * t931 - q0r2_x * t936)))));
-  const Real t995 = q0r1_x * t936 + (q0r1_y * t931 + (groundgv_z * t964 + q0r1_z * t928));
-  const Real t997 = q0r2_y * t945 - (q0r2_z * t937 - q0r2_x * t950);
-  const Real t1023 = q0r1_y * state.z[4] - (q0r1_z * state.z[5] + q0r1_x * state.z[3]);
-  const Real t1031 = q0r2_y * state.z[4] - (q0r2_z * state.z[5] - q0r2_x * state.z[3]);
-  const Real t1039 = t496 * state.z[5] + (grounds1bf0_z * state.z[2] - groundgy_z * t928);
-  const Real t1045 = t504 * state.z[5] + (grounds1bf0_z * state.z[0] - groundgy_x * t928);
-  const Real t1050 = t496 * state.z[3] + (grounds1bf0_x * state.z[2] - groundgy_z * t936);
-  const Real t1054 = t995 + t997;
-  const Real t1057 = t504 * state.z[3] + (grounds1bf0_x * state.z[0] - groundgy_x * t936);
-  const Real t1062 = groundgv_y * t1031 - (groundgv_z * t1023 + (q0r0_z * t928 - (q0r0_y * t931 - q0r0_x *
-      t936)));
-  const Real t1063 = model.radius * (groundgy_y * t964 - groundgy_x * t1023);
-  const Real t1064 = model.radius * (groundgo_4 * t964);
-  const Real t1065 = model.radius * (groundgy_z * t964 - groundgy_x * t1031);
-  const Real t1066 = expression_67 * t1064;
-  const Real t1067 = model.radius * (groundgy_z * t1023 - groundgy_y * t1031);
-  const Real t1068 = model.radius * (t561 * state.z[5] + (t549 * state.z[3] - t555 * state.z[4]));
-  const Real t1076 = t473 * t1054 - (expression_64 * t987 - groundgo * t1062);
-  const Real t1122 = t419 * state.z[5];
-  const Real t1123 = t419 * state.z[4];
-  const Real t1124 = t419 * state.z[3];
-  const Real t1125 = t416 * state.z[5];
-  const Real t1126 = t416 * state.z[4];
-  const Real t1127 = t416 * state.z[3];
-  const Real t1128 = t414 * state.z[5];
-  const Real t1129 = t414 * state.z[4];
-  const Real t1130 = t414 * state.z[3];
-  const Real t1139 = t1124 - t1128;
-  const Real t1143 = t1122 - t1130;
-  const Real t1145 = t1125 + t1129;
-  const Real t1148 = t1126 - (t1124 + t1128);
-  const Real t1149 = t1123 + t1127;
-  const Real t1166 = state.y[3] * (t1122 + t1130);
-  const Real t1168 = t1125 - t1129;
-  const Real t1173 = t1126 + t1128;
-  const Real t1174 = t1124 + t1126;
-  const Real t1177 = t1123 - t1127;
+  const Real t657 = groundggi * groundggi;
+  const Real t658 = Real(2.0) * t609;
+  const Real t660 = state.y[4] * t658;
+  const Real t661 = Real(2.0) * t660;
+  const Real t663 = Real(2.0) * t614;
+  const Real t666 = q0d2 * t609 - state.y[4] * t663;
+  const Real t667 = Real(2.0) * t619;
+  const Real t668 = q0d3 * t667;
+  const Real t670 = q0d3 * t614 + state.y[5] * t667;
+  const Real t673 = state.y[3] * t658 + q0d1 * t604;
+  const Real t675 = state.y[3] * t667 - q0d3 * t604;
+  const Real t676 = t670 - t673;
+  const Real t677 = t666 + t675;
+  const Real t681 = t661 - t668;
+  const Real t683 = q0r1_y * t677 + q0r0_y * t681;
+  const Real t687 = q0r2_y * t677 - q0r0_y * t676;
+  const Real t689 = q0r2_y * t681 - q0r1_y * t676;
+  const Real t696 = expression_67 * t689;
+  const Real t697 = t687 - expression_64 * (t393 * t677);
+  const Real t698 = expression_67 * t683 + t697;
+  const Real t701 = t689 + expression_67 * ((q0r1_y + q0r1_y) * t681);
+  const Real t702 = expression_64 * t683 - t701;
+  const Real t709 = t395 * t676 + expression_64 * t687;
+  const Real t712 = t709 + (expression_67 * t702 - (t696 - expression_64 * t698));
+  const Real t716 = state.z[0] - model.radius * (groundggi * t698 - t397 * (groundgge_x * t657) * t712);
+  const Real t720 = state.z[1] - model.radius * (groundggi * t702 - t397 * (groundgge_y * t657) * t712);
+  const Real t726 = groundgga_3 * t716 + groundgga_4 * t720;
+  const Real t730 = state.y[3] * t609;
+  const Real t734 = t391 * t658;
+  const Real t737 = t391 * t663;
+  const Real t739 = t737 * Real(4.0);
+  const Real t743 = t389 * t667;
+  const Real t744 = t391 * t667;
+  const Real t746 = q0d3 * t609 - state.y[4] * t667;
+  const Real t750 = state.y[3] * t663 - q0d2 * t604;
+  const Real t751 = t670 + t673;
+  const Real t752 = t666 - t675;
+  const Real t765 = model.wave * (groundgga * t716 - groundgga_2 * t720);
+  const Real t772 = expression_69 * t726 - model.c6 * (t620 * t765);
+  const Real t783 = model.hill * (expression_66 * (expression_62 * t765)) - expression_70 * t726;
+  const Real t788 = (expression_67 + expression_67) * t783;
+  const Real t792 = expression_67 * t772 + expression_64 * t783;
+  const Real t795 = groundgs_xx * t772 + (t698 + groundgs_xy * t783);
+  const Real t797 = groundggi * t795;
+  const Real t799 = groundgs_xy * t772 + (t702 + groundgs_yy * t783);
+  const Real t801 = groundggi * t799;
+  const Real t804 = groundgs_xz * t772 + (t709 - (t696 + groundgs_yz * t783));
+  const Real t805 = groundggi * t804;
+  const Real t810 = t397 * (t804 + (groundgge_x * t772 + (expression_64 * t795 + (groundgge_y * t783 +
+      expression_67 * t799))));
+  const Real t812 = t657 * t810;
+  const Real t813 = groundgz_z * t783;
+  const Real t818 = Real(0.5) * (t531 * (groundgo_3 * ((expression_64 + expression_64) * t772 + t788)));
+  const Real t825 = groundgv_x * state.z[5];
+  const Real t826 = groundgo_4 * t825;
+  const Real t830 = t506 * state.z[5];
+  const Real t832 = groundgv_x * state.z[4];
+  const Real t837 = groundgv_x * state.z[3];
+  const Real t838 = groundgo_4 * t837;
+  const Real t847 = t506 * state.z[3];
+  const Real t850 = q0r0_y * state.z[4] + (q0r0_z * state.z[5] + q0r0_x * state.z[3]);
+  const Real t855 = q0r1_z * t825 - (state.z[2] + (q0r1_y * t832 - (q0r1_x * t837 - groundgv_y * t850)));
+  const Real t862 = q0r2_z * t825 - (state.z[1] + (q0r2_y * t832 + (q0r2_x * t837 + groundgv_z * t850)));
+  const Real t865 = t489 * state.z[5];
+  const Real t868 = t481 * state.z[5];
+  const Real t872 = t489 * state.z[3];
+  const Real t878 = q0r1_y * state.z[4] - (q0r1_z * state.z[5] + q0r1_x * state.z[3]);
+  const Real t883 = t481 * state.z[3];
+  const Real t886 = q0r2_y * state.z[4] - (q0r2_z * state.z[5] - q0r2_x * state.z[3]);
+  const Real t891 = groundgv_z * t878 + (state.z[0] - groundgv_y * t886);
+  const Real t894 = model.radius * (groundgy_y * t850 - groundgy_x * t878);
+  const Real t895 = model.radius * (groundgo_4 * t850);
+  const Real t896 = model.radius * (groundgy_z * t850 - groundgy_x * t886);
+  const Real t897 = expression_67 * t895;
+  const Real t898 = model.radius * (groundgy_z * t878 - groundgy_y * t886);
+  const Real t899 = model.radius * (t522 * state.z[5] + (t510 * state.z[3] - t516 * state.z[4]));
+  const Real t907 = t473 * t862 - (expression_64 * t855 - groundgo * t891);
+  const Real t953 = t419 * state.z[5];
+  const Real t954 = t419 * state.z[4];
+  const Real t955 = t419 * state.z[3];
+  const Real t956 = t416 * state.z[5];
+  const Real t957 = t416 * state.z[4];
+  const Real t958 = t416 * state.z[3];
+  const Real t959 = t414 * state.z[5];
+  const Real t960 = t414 * state.z[4];
+  const Real t961 = t414 * state.z[3];
+  const Real t971 = t955 - t959;
+  const Real t975 = t953 - t961;
+  const Real t977 = t956 + t960;
+  const Real t980 = t957 - (t955 + t959);
+  const Real t981 = t954 + t958;
+  const Real t998 = state.y[3] * (t953 + t961);
+  const Real t1000 = t956 - t960;
+  const Real t1005 = t957 + t959;
+  const Real t1006 = t955 + t957;
+  const Real t1009 = t954 - t958;
   const Real rww00 = state.z[4] * state.z[5];
   const Real rww02 = state.z[3] * state.z[4];
   const Real rdn0_x = rww00 * model.rdS00;
   const Real rdn0_z = rww02 * model.rdS00;
-  const Real t1215 = model.c12 * rdn0_x;
-  const Real t1216 = model.c12 * rdn0_z;
-  const Real t1227 = state.y[4] * t688 + t815;
-  const Real t1292 = Real(0.5) * (t693 * (q0d2 * t1122 + (q0d3 * t1149 - (q0d1 * t1168 - Real(2.0) *
-      (state.y[6] * t1127 + (state.y[5] * t1130 + (state.y[3] * t1139 - state.y[4] * t1125)))))) - (t698 *
-      (q0d2 * t1123 - (q0d3 * t1143 + (q0d1 * t1173 + Real(2.0) * (state.y[3] * t1129 + state.y[4] * t1174))))
-      - (t688 * (q0d3 * t1148 - (q0d1 * t1130 - Real(2.0) * (state.y[4] * t1122 + t433 * state.z[4]))) - t683
-      * (q0d2 * t1124 - (q0d3 * t1145 + (q0d1 * t1127 + Real(2.0) * (state.y[6] * t1125 + (state.y[5] * t1128
-      + (t1166 - state.y[4] * t1177)))))))) + t828 * t1139) - (Real(2.0) * (t760 * (expression_67 * t402 *
-      t760) + (t755 * (t401 * t755) + t756 * (t408 * t756))) + (state.z[2] * t906 + (state.z[0] * (groundgo_3
-      * t861 - expression_64 * t906) + (state.z[1] * (groundgo_3 * t872 - expression_67 * t906) +
-      (model.radius * (t788 * t906) - (t822 * t1149 - (t821 * t1145 - (t392 * t746 * t1143 + (t683 * t1166 -
-      (t808 * t1177 - (t812 * t1168 - (groundggi * t397 * t898 * (t398 * t787) - (groundgo_3 * model.c15 +
-      (t451 * t1215 + (t455 * t1216 + (t762 * (t401 * t881) - (t755 * (t406 * t756 - t404 * t760) + (t1130 *
-      (t739 - t1227) + (t1129 * (state.y[4] * t693 + state.y[6] * t683) - (t760 * (t407 * t756 + t404 * t755)
-      + (t1127 * (t808 + t822) + (t1125 * (t812 - t821) + (t756 * (t407 * t760 - t406 * t755) + (t1122 * t1227
-      - (t1123 * (t392 * t742 - state.y[4] * t683) + (t401 * t872 * (t780 - t781) - (t401 * t861 * (t776 +
-      t777) - (state.y[6] * t688 * (t1173 + t1174) + state.y[4] * t698 * (t1126 +
-      t1148)))))))))))))))))))))))))))));
-  const Real t1323 = state.z[1] * (grounds1bf0_y * t760) + (state.z[2] * (grounds1bf0_y * t755) - (state.z[0]
-      * (grounds1bf0_y * t756) + (groundgo_5 * t861 * t987 - (t881 * (groundgo_5 * t1054) + (groundgo_5 * t877
-      * t1062 - (groundgo_4 * t906 * t1076 + (t901 * (t807 * (groundgo_3 * t1076)) - (t893 * t1063 - (t890 *
-      t1065 + (t886 * t1067 - (t900 * (groundgge_y * t1065 - (groundgge_z * t1063 - groundgge_x * t1067)) -
-      (t740 * t1039 + (t829 * (t500 * state.z[5] + (grounds1bf0_z * state.z[1] + groundgy_y * t928)) - (t830 *
-      (t500 * state.z[3] + (grounds1bf0_x * state.z[1] + groundgy_y * t936)) + (t747 * t1057 - (t828 * (t1045
-      - t1050) - (t824 * (t1045 + t1050) + (t817 * (t1039 + t1057) - (grounds1bf_z * model.c15 +
-      (grounds1bn0_x * t1215 - (grounds1bn0_z * t1216 + (t647 * t1292 - (state.z[4] * (t500 * t760 - (t504 *
-      t756 - t496 * t755)) + t931 * (groundgy_z * t755 - (groundgy_x * t756 + groundgy_y *
-      t760)))))))))))))))))))))))));
-  const Real t1355 = t678 * (state.z[1] * (grounds2bf0_y * t760) + (state.z[2] * (grounds2bf0_y * t755) -
-      (state.z[0] * (grounds2bf0_y * t756) - (state.z[4] * (t545 * t756) + (groundgo_4 * t872 * t987 - (t901 *
-      (t807 * (t997 + (expression_67 * t987 + t995))) - (t893 * t1064 + (t890 * t1066 - (t886 * t1068 + (t900
-      * (groundgge_y * t1066 + (groundgge_z * t1064 - groundgge_x * t1068)) + (t740 * t970 - (t829 *
-      (groundgz_z * t937 - (grounds2bf0_z * state.z[1] + groundgo_4 * t928)) - (t830 * (groundgz_z * t950 -
-      (grounds2bf0_x * state.z[1] + groundgo_4 * t936)) - (t747 * t961 - (t828 * (t943 - t980) - (t824 * (t943
-      + t980) + (t817 * (t961 + t970) - (grounds2bf_z * model.c15 + (grounds2bn0_x * t1215 - (grounds2bn0_z *
-      t1216 + (t657 * t1292 - (t667 * t1323 - (t931 * (groundgo_4 * t760 + groundgz_z * t755) + t945 *
-      (groundgz_z * t760 - groundgo_4 * t755))))))))))))))))))))))));
-  const Real t1357 = t666 * t1323 - t667 * t1355;
-  const Real t1361 = t647 * t1357 + (t646 * t1292 + t657 * t1355);
-  const Real t1362 = Real(4.9999999999999995e-11) * t1361;
-  const Real t1366 = Real(1.5000000000000002e-10) * t1357 + t647 * t1362;
-  const Real t1373 = t678 * (t657 * t1362 + (Real(2.5e-10) * t1355 - t667 * t1366));
-  const Real t1375 = t666 * t1366 - t667 * t1373;
-  const Real t1380 = t646 * t1362 + (t1361 + (t647 * t1375 + t657 * t1373));
-  const Real t1381 = t1357 + t1375;
-  const Real t1382 = t1355 + t1373;
-  zdot[0] = -(model.c11 * (grounds1bf_x * t1381 + (t400 * t1380 + grounds2bf_x * t1382)));
-  zdot[1] = model.c11 * (grounds1bf_y * t1381 - (t399 * t1380 - grounds2bf_y * t1382));
-  zdot[2] = -(model.c11 * (grounds1bf_z * t1381 - (groundgo_3 * t1380 - grounds2bf_z * t1382) + model.q_2));
-  zdot[3] = -(model.c12 * (t451 * t1380 - (rdn0_x + (grounds1bn0_x * t1381 + grounds2bn0_x * t1382))));
-  zdot[4] = -(model.c13 * (grounds1bn0_y * t1381 - grounds2bn0_y * t1382));
-  zdot[5] = model.c12 * (t455 * t1380 - (rdn0_z - (grounds1bn0_z * t1381 + grounds2bn0_z * t1382)));
+  const Real t1047 = model.c11 * rdn0_x;
+  const Real t1048 = model.c11 * rdn0_z;
+  const Real t1059 = state.y[4] * t609 + t737;
+  const Real t1124 = Real(0.5) * (t614 * (q0d2 * t953 + (q0d3 * t981 - (q0d1 * t1000 - Real(2.0) * (state.y[6]
+      * t958 + (state.y[5] * t961 + (state.y[3] * t971 - state.y[4] * t956)))))) - (t619 * (q0d2 * t954 -
+      (q0d3 * t975 + (q0d1 * t1005 + Real(2.0) * (state.y[3] * t960 + state.y[4] * t1006)))) - (t609 * (q0d3 *
+      t980 - (q0d1 * t961 - Real(2.0) * (state.y[4] * t953 + t433 * state.z[4]))) - t604 * (q0d2 * t955 -
+      (q0d3 * t977 + (q0d1 * t958 + Real(2.0) * (state.y[6] * t956 + (state.y[5] * t959 + (t998 - state.y[4] *
+      t1009)))))))) + t750 * t971) - (Real(2.0) * (t681 * (expression_67 * t402 * t681) + (t676 * (t401 *
+      t676) + t677 * (t408 * t677))) + (state.z[2] * t818 + (state.z[0] * (groundgo_3 * t772 - expression_64 *
+      t818) + (state.z[1] * (groundgo_3 * t783 - expression_67 * t818) + (model.radius * (t818 * (t397 *
+      t712)) - (t744 * t981 - (t743 * t977 - (t392 * t667 * t975 + (t604 * t998 - (t730 * t1009 - (t734 *
+      t1000 - (groundggi * t397 * t810 * (t398 * t712) - (groundgo_3 * model.c15 + (t451 * t1047 + (t455 *
+      t1048 + (t683 * (t401 * t792) - (t676 * (t406 * t677 - t404 * t681) + (t961 * (t660 - t1059) + (t960 *
+      (state.y[4] * t614 + state.y[6] * t604) - (t681 * (t407 * t677 + t404 * t676) + (t958 * (t730 + t744) +
+      (t956 * (t734 - t743) + (t677 * (t407 * t681 - t406 * t676) + (t953 * t1059 - (t954 * (t392 * t663 -
+      state.y[4] * t604) + (t401 * t783 * (t701 - t702) - (t401 * t772 * (t697 + t698) - (state.y[6] * t609 *
+      (t1005 + t1006) + state.y[4] * t619 * (t957 + t980)))))))))))))))))))))))))))));
+  const Real t1148 = t792 * (groundgo_5 * t862) - (groundgo_5 * t772 * t855 - (groundgo_5 * t788 * t891 -
+      (groundgo_4 * t818 * t907 + (t813 * (t557 * (groundgo_3 * t907)) + (t805 * t894 - (t801 * t896 + (t797 *
+      t898 - (t812 * (groundgge_y * t896 - (groundgge_z * t894 - groundgge_x * t898)) - (t661 * t868 + (t751 *
+      (t485 * state.z[5]) - (t752 * (t485 * state.z[3]) + (t668 * t872 - (t750 * (t865 - t883) - (t746 * (t865
+      + t883) + (t739 * (t868 + t872) - (groundgy_z * model.c15 + (grounds1bn0_x * t1047 - (grounds1bn0_z *
+      t1048 + (t570 * t1124 - state.z[4] * (t485 * t681 - (t489 * t677 - t481 * t676)))))))))))))))))))));
+  const Real t1174 = t599 * (groundgo_4 * t783 * t855 - (state.z[4] * (t506 * t677) + (t813 * (t557 *
+      (expression_67 * t855 + t862)) + (t805 * t895 + (t801 * t897 - (t797 * t899 + (t812 * (groundgge_y *
+      t897 + (groundgge_z * t895 - groundgge_x * t899)) + (t661 * t826 - (t751 * (groundgz_z * t825) - (t752 *
+      (groundgz_z * t837) - (t668 * t847 - (t750 * (t830 - t838) - (t746 * (t830 + t838) + (t739 * (t826 +
+      t847) + (groundgz_z * model.c15 - (grounds2bn0_x * t1047 - (grounds2bn0_z * t1048 + (t581 * t1124 -
+      (t588 * t1148 - t832 * (groundgz_z * t681 - groundgo_4 * t676))))))))))))))))))));
+  const Real t1176 = t587 * t1148 + t588 * t1174;
+  const Real t1180 = t570 * t1176 - (t569 * t1124 - t581 * t1174);
+  const Real t1181 = Real(4.9999999999999995e-11) * t1180;
+  const Real t1185 = Real(1.5000000000000002e-10) * t1176 + t570 * t1181;
+  const Real t1192 = t599 * (t581 * t1181 + (Real(2.5e-10) * t1174 + t588 * t1185));
+  const Real t1194 = t587 * t1185 + t588 * t1192;
+  const Real t1199 = t569 * t1181 + (t1180 + (t570 * t1194 + t581 * t1192));
+  const Real t1200 = t1176 + t1194;
+  const Real t1201 = t1174 + t1192;
+  zdot[0] = model.c13 * (expression_64 * groundgo_3 * t1199 + groundgy_x * t1200);
+  zdot[1] = -(model.c13 * (groundgy_y * t1200 - (expression_67 * groundgo_3 * t1199 - groundgo_4 * t1201)));
+  zdot[2] = model.c13 * (groundgy_z * t1200 - (groundgo_3 * t1199 + groundgz_z * t1201) - model.q_2);
+  zdot[3] = model.c11 * (t451 * t1199 + (rdn0_x - (grounds1bn0_x * t1200 + grounds2bn0_x * t1201)));
+  zdot[4] = model.c12 * (grounds1bn0_y * t1200 - grounds2bn0_y * t1201);
+  zdot[5] = -(model.c11 * (t455 * t1199 + (rdn0_z + (grounds1bn0_z * t1200 + grounds2bn0_z * t1201))));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -976,10 +938,10 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real expression_12 = expression_9 * expression_11;
   const Real expression_13 = expression_3 * expression_11;
   const Real expression_14 = expression_5 * expression_9 * model.c9;
-  const Real groundg0e_x = groundgs_xy * expression_12 - (groundgs_xz + groundgs_xx * expression_6);
-  const Real groundg0e_y = groundgs_yy * expression_12 + (groundgs_yz - groundgs_xy * expression_6);
-  const Real groundg0u = expression_6 * (groundgs_xz - groundg0e_x) + (groundgs_zz + expression_12 *
-      (groundgs_yz + groundg0e_y));
+  const Real groundg0e_x = groundgs_xx * expression_6 + (groundgs_xz - groundgs_xy * expression_12);
+  const Real groundg0e_y = groundgs_xy * expression_6 - (groundgs_yz + groundgs_yy * expression_12);
+  const Real groundg0u = expression_12 * (groundgs_yz - groundg0e_y) + (groundgs_zz + expression_6 *
+      (groundgs_xz + groundg0e_x));
   const Real groundg0r = detail::square_root(groundg0u);
   const Real groundg0i = Real(1.0) / groundg0r;
   const Real groundg0q_x = groundg0e_x * groundg0i;
@@ -1005,8 +967,8 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real groundg0a_2 = groundg0j_2 * groundg0d;
   const Real groundg0a_3 = groundg0j_3 * groundg0d;
   const Real groundg0a_4 = groundg0j * groundg0d;
-  const Real groundgc = groundg0f_2 * groundg0a_2 + (state.y[0] - groundg0f * groundg0a);
-  const Real groundgc_2 = groundg0f_2 * groundg0a_4 - (state.y[1] + groundg0f * groundg0a_3);
+  const Real groundgc = groundg0f * groundg0a + (state.y[0] - groundg0f_2 * groundg0a_2);
+  const Real groundgc_2 = groundg0f * groundg0a_3 - (state.y[1] + groundg0f_2 * groundg0a_4);
   const Real expression_15 = model.wave * groundgc;
   Real expression_21, expression_16;
   detail::sine_cosine(expression_15, expression_21, expression_16);
@@ -1021,28 +983,28 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real expression_26 = expression_23 * expression_25;
   const Real expression_27 = expression_17 * expression_25;
   const Real expression_28 = model.c9 * (expression_19 * expression_23);
-  const Real groundg1e_x = groundgs_xy * expression_26 + (groundgs_xz + groundgs_xx * expression_20);
-  const Real groundg1e_y = groundgs_yy * expression_26 - (groundgs_yz - groundgs_xy * expression_20);
-  const Real groundg1u = expression_20 * (groundgs_xz + groundg1e_x) + (groundgs_zz - expression_26 *
-      (groundgs_yz - groundg1e_y));
-  const Real groundg1r = detail::square_root(groundg1u);
+  const Real groundg1e_x = groundgs_xx * expression_20 + (groundgs_xz + groundgs_xy * expression_26);
+  const Real groundg1e_y = groundgs_xy * expression_20 - (groundgs_yz - groundgs_yy * expression_26);
+  const Real groundg1u = expression_26 * (groundgs_yz - groundg1e_y) - (groundgs_zz + expression_20 *
+      (groundgs_xz + groundg1e_x));
+  const Real groundg1r = detail::square_root(-groundg1u);
   const Real groundg1i = Real(1.0) / groundg1r;
   const Real groundg1q_x = groundg1e_x * groundg1i;
   const Real groundg1q_y = groundg1e_y * groundg1i;
   const Real groundg1l = model.radius * groundg1i;
-  const Real groundg1f = model.radius * groundg1q_x + (state.y[0] - groundgc);
+  const Real groundg1f = groundgc - (state.y[0] + model.radius * groundg1q_x);
   const Real groundg1p = groundgs_xx - groundg1q_x * groundg1q_x;
-  const Real groundg1f_2 = model.radius * groundg1q_y + (state.y[1] + groundgc_2);
+  const Real groundg1f_2 = groundgc_2 + (state.y[1] + model.radius * groundg1q_y);
   const Real groundg1p_2 = groundgs_xy - groundg1q_x * groundg1q_y;
   const Real groundg1p_3 = groundgs_yy - groundg1q_y * groundg1q_y;
-  const Real t160 = expression_27 * groundg1p_2;
-  const Real groundg1k = expression_22 * groundg1p - t160;
+  const Real t161 = expression_27 * groundg1p_2;
+  const Real groundg1k = expression_22 * groundg1p - t161;
   const Real groundg1j = Real(1.0) + groundg1l * groundg1k;
   const Real groundg1k_2 = expression_27 * groundg1p - expression_28 * groundg1p_2;
   const Real groundg1j_2 = groundg1l * groundg1k_2;
   const Real groundg1k_3 = expression_22 * groundg1p_2 - expression_27 * groundg1p_3;
   const Real groundg1j_3 = groundg1l * groundg1k_3;
-  const Real groundg1k_4 = t160 - expression_28 * groundg1p_3;
+  const Real groundg1k_4 = t161 - expression_28 * groundg1p_3;
   const Real groundg1j_4 = Real(1.0) - groundg1l * groundg1k_4;
   const Real groundg1t = groundg1j * groundg1j_4 + groundg1j_2 * groundg1j_3;
   const Real groundg1d = Real(1.0) / groundg1t;
@@ -1050,8 +1012,8 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real groundg1a_2 = groundg1j_2 * groundg1d;
   const Real groundg1a_3 = groundg1j_3 * groundg1d;
   const Real groundg1a_4 = groundg1j * groundg1d;
-  const Real groundgc_3 = groundg1f_2 * groundg1a_2 + (groundgc + groundg1f * groundg1a);
-  const Real groundgc_4 = groundg1f_2 * groundg1a_4 - (groundgc_2 + groundg1f * groundg1a_3);
+  const Real groundgc_3 = groundg1f * groundg1a - (groundgc + groundg1f_2 * groundg1a_2);
+  const Real groundgc_4 = groundg1f * groundg1a_3 - (groundgc_2 - groundg1f_2 * groundg1a_4);
   const Real expression_29 = model.wave * groundgc_3;
   Real expression_35, expression_30;
   detail::sine_cosine(expression_29, expression_35, expression_30);
@@ -1066,37 +1028,37 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real expression_40 = expression_37 * expression_39;
   const Real expression_41 = expression_31 * expression_39;
   const Real expression_42 = model.c9 * (expression_33 * expression_37);
-  const Real groundg2e_x = groundgs_xy * expression_40 - (groundgs_xz + groundgs_xx * expression_34);
-  const Real groundg2e_y = groundgs_yy * expression_40 + (groundgs_yz - groundgs_xy * expression_34);
-  const Real groundg2u = expression_34 * (groundgs_xz - groundg2e_x) + (groundgs_zz + expression_40 *
-      (groundgs_yz + groundg2e_y));
-  const Real groundg2r = detail::square_root(groundg2u);
+  const Real groundg2e_x = groundgs_xx * expression_34 + (groundgs_xz + groundgs_xy * expression_40);
+  const Real groundg2e_y = groundgs_xy * expression_34 - (groundgs_yz - groundgs_yy * expression_40);
+  const Real groundg2u = expression_40 * (groundgs_yz - groundg2e_y) - (groundgs_zz + expression_34 *
+      (groundgs_xz + groundg2e_x));
+  const Real groundg2r = detail::square_root(-groundg2u);
   const Real groundg2i = Real(1.0) / groundg2r;
   const Real groundg2q_x = groundg2e_x * groundg2i;
   const Real groundg2q_y = groundg2e_y * groundg2i;
   const Real groundg2l = model.radius * groundg2i;
-  const Real groundg2f = model.radius * groundg2q_x - (state.y[0] - groundgc_3);
+  const Real groundg2f = groundgc_3 + (state.y[0] + model.radius * groundg2q_x);
   const Real groundg2p = groundgs_xx - groundg2q_x * groundg2q_x;
-  const Real groundg2f_2 = model.radius * groundg2q_y - (state.y[1] - groundgc_4);
+  const Real groundg2f_2 = groundgc_4 - (state.y[1] + model.radius * groundg2q_y);
   const Real groundg2p_2 = groundgs_xy - groundg2q_x * groundg2q_y;
   const Real groundg2p_3 = groundgs_yy - groundg2q_y * groundg2q_y;
-  const Real t240 = expression_41 * groundg2p_2;
-  const Real groundg2k = expression_36 * groundg2p + t240;
-  const Real groundg2j = Real(1.0) + groundg2l * groundg2k;
-  const Real groundg2k_2 = expression_41 * groundg2p + expression_42 * groundg2p_2;
+  const Real t242 = expression_41 * groundg2p_2;
+  const Real groundg2k = expression_36 * groundg2p - t242;
+  const Real groundg2j = Real(1.0) - groundg2l * groundg2k;
+  const Real groundg2k_2 = expression_41 * groundg2p - expression_42 * groundg2p_2;
   const Real groundg2j_2 = groundg2l * groundg2k_2;
-  const Real groundg2k_3 = expression_36 * groundg2p_2 + expression_41 * groundg2p_3;
+  const Real groundg2k_3 = expression_36 * groundg2p_2 - expression_41 * groundg2p_3;
   const Real groundg2j_3 = groundg2l * groundg2k_3;
-  const Real groundg2k_4 = t240 + expression_42 * groundg2p_3;
+  const Real groundg2k_4 = t242 - expression_42 * groundg2p_3;
   const Real groundg2j_4 = Real(1.0) + groundg2l * groundg2k_4;
-  const Real groundg2t = groundg2j * groundg2j_4 - groundg2j_2 * groundg2j_3;
+  const Real groundg2t = groundg2j * groundg2j_4 + groundg2j_2 * groundg2j_3;
   const Real groundg2d = Real(1.0) / groundg2t;
   const Real groundg2a = groundg2j_4 * groundg2d;
   const Real groundg2a_2 = groundg2j_2 * groundg2d;
   const Real groundg2a_3 = groundg2j_3 * groundg2d;
   const Real groundg2a_4 = groundg2j * groundg2d;
-  const Real groundgc_5 = groundg2f_2 * groundg2a_2 + (groundgc_3 - groundg2f * groundg2a);
-  const Real groundgc_6 = groundg2f_2 * groundg2a_4 - (groundgc_4 + groundg2f * groundg2a_3);
+  const Real groundgc_5 = groundg2f * groundg2a - (groundgc_3 - groundg2f_2 * groundg2a_2);
+  const Real groundgc_6 = groundg2f * groundg2a_3 + (groundgc_4 - groundg2f_2 * groundg2a_4);
   const Real expression_43 = model.wave * groundgc_5;
   Real expression_49, expression_44;
   detail::sine_cosine(expression_43, expression_49, expression_44);
@@ -1111,38 +1073,38 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real expression_54 = expression_51 * expression_53;
   const Real expression_55 = expression_45 * expression_53;
   const Real expression_56 = model.c9 * (expression_47 * expression_51);
-  const Real groundg3e_x = groundgs_xy * expression_54 + (groundgs_xz + groundgs_xx * expression_48);
-  const Real groundg3e_y = groundgs_yy * expression_54 - (groundgs_yz - groundgs_xy * expression_48);
-  const Real groundg3u = expression_48 * (groundgs_xz + groundg3e_x) + (groundgs_zz - expression_54 *
-      (groundgs_yz - groundg3e_y));
+  const Real groundg3e_x = groundgs_xx * expression_48 + (groundgs_xz - groundgs_xy * expression_54);
+  const Real groundg3e_y = groundgs_xy * expression_48 - (groundgs_yz + groundgs_yy * expression_54);
+  const Real groundg3u = expression_54 * (groundgs_yz - groundg3e_y) + (groundgs_zz + expression_48 *
+      (groundgs_xz + groundg3e_x));
   const Real groundg3r = detail::square_root(groundg3u);
   const Real groundg3i = Real(1.0) / groundg3r;
   const Real groundg3q_x = groundg3e_x * groundg3i;
   const Real groundg3q_y = groundg3e_y * groundg3i;
   const Real groundg3l = model.radius * groundg3i;
-  const Real groundg3f = model.radius * groundg3q_x + (state.y[0] - groundgc_5);
+  const Real groundg3f = groundgc_5 - (state.y[0] + model.radius * groundg3q_x);
   const Real groundg3p = groundgs_xx - groundg3q_x * groundg3q_x;
-  const Real groundg3f_2 = model.radius * groundg3q_y + (state.y[1] + groundgc_6);
+  const Real groundg3f_2 = groundgc_6 - (state.y[1] + model.radius * groundg3q_y);
   const Real groundg3p_2 = groundgs_xy - groundg3q_x * groundg3q_y;
   const Real groundg3p_3 = groundgs_yy - groundg3q_y * groundg3q_y;
-  const Real t320 = expression_55 * groundg3p_2;
-  const Real groundg3k = expression_50 * groundg3p - t320;
+  const Real t322 = expression_55 * groundg3p_2;
+  const Real groundg3k = expression_50 * groundg3p + t322;
   const Real groundg3j = Real(1.0) + groundg3l * groundg3k;
-  const Real groundg3k_2 = expression_55 * groundg3p - expression_56 * groundg3p_2;
+  const Real groundg3k_2 = expression_55 * groundg3p + expression_56 * groundg3p_2;
   const Real groundg3j_2 = groundg3l * groundg3k_2;
-  const Real groundg3k_3 = expression_50 * groundg3p_2 - expression_55 * groundg3p_3;
+  const Real groundg3k_3 = expression_50 * groundg3p_2 + expression_55 * groundg3p_3;
   const Real groundg3j_3 = groundg3l * groundg3k_3;
-  const Real groundg3k_4 = t320 - expression_56 * groundg3p_3;
-  const Real groundg3j_4 = Real(1.0) - groundg3l * groundg3k_4;
-  const Real groundg3t = groundg3j * groundg3j_4 + groundg3j_2 * groundg3j_3;
+  const Real groundg3k_4 = t322 + expression_56 * groundg3p_3;
+  const Real groundg3j_4 = Real(1.0) + groundg3l * groundg3k_4;
+  const Real groundg3t = groundg3j * groundg3j_4 - groundg3j_2 * groundg3j_3;
   const Real groundg3d = Real(1.0) / groundg3t;
   const Real groundg3a = groundg3j_4 * groundg3d;
   const Real groundg3a_2 = groundg3j_2 * groundg3d;
   const Real groundg3a_3 = groundg3j_3 * groundg3d;
   const Real groundg3a_4 = groundg3j * groundg3d;
-  const Real groundgm = groundg3f * groundg3a + groundg3f_2 * groundg3a_2;
+  const Real groundgm = groundg3f * groundg3a - groundg3f_2 * groundg3a_2;
   const Real groundgm_2 = groundg3f * groundg3a_3 - groundg3f_2 * groundg3a_4;
-  const Real groundgc_7 = groundgc_5 + groundgm;
+  const Real groundgc_7 = groundgc_5 - groundgm;
   const Real groundgc_8 = groundgc_6 + groundgm_2;
   const Real expression_57 = model.wave * groundgc_7;
   Real expression_58, expression_63;
@@ -1156,43 +1118,44 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real expression_65 = expression_61 * expression_64;
   const Real expression_67 = model.wave * expression_66;
   const Real expression_68 = expression_59 * expression_67;
-  const Real groundgge_x = groundgs_xy * expression_68 + (groundgs_xz + groundgs_xx * expression_65);
-  const Real groundgge_y = groundgs_yy * expression_68 - (groundgs_yz - groundgs_xy * expression_65);
-  const Real groundgge_z = groundgs_yz * expression_68 - (groundgs_zz + groundgs_xz * expression_65);
-  const Real groundggu = expression_68 * groundgge_y - (groundgge_z - expression_65 * groundgge_x);
+  const Real groundgge_x = groundgs_xx * expression_65 + (groundgs_xz - groundgs_xy * expression_68);
+  const Real groundgge_y = groundgs_xy * expression_65 - (groundgs_yz + groundgs_yy * expression_68);
+  const Real groundgge_z = groundgs_xz * expression_65 + (groundgs_zz + groundgs_yz * expression_68);
+  const Real groundggu = expression_65 * groundgge_x + (groundgge_z - expression_68 * groundgge_y);
   const Real groundggr = detail::square_root(groundggu);
-  const Real groundgo = Real(1.0) + expression_68 * expression_68;
+  const Real t383 = expression_68 * expression_68;
+  const Real groundgo = Real(1.0) + t383;
   const Real groundgo_2 = groundgo + expression_65 * expression_65;
   const Real groundgo_3 = Real(1.0) / detail::square_root(groundgo_2);
-  const Real groundgv = state.y[2] - (model.radius * groundggr + (expression_68 * (state.y[1] + groundgc_8) +
-      (expression_62 + expression_65 * (state.y[0] - groundgc_7))));
+  const Real groundgv = expression_65 * (state.y[0] - groundgc_7) + (expression_62 - (expression_68 *
+      (state.y[1] - groundgc_8) - (model.radius * groundggr - state.y[2])));
   const Real g_ground = groundgo_3 * groundgv;
-  const Real t399 = state.y[3] * Real(0.5);
-  const Real t400 = state.y[4] * Real(0.5);
-  const Real t401 = state.y[5] * Real(0.5);
-  const Real t402 = state.y[6] * Real(0.5);
+  const Real t401 = state.y[3] * Real(0.5);
+  const Real t402 = state.y[4] * Real(0.5);
+  const Real t403 = state.y[5] * Real(0.5);
+  const Real t404 = state.y[6] * Real(0.5);
   const Real groundggi = Real(1.0) / groundggr;
-  const Real t405 = expression_68 * groundgo_3;
-  const Real t406 = expression_65 * groundgo_3;
-  const Real t409 = groundgo_3 * groundggi * model.c18;
-  const Real t410 = expression_68 * t409;
-  const Real t411 = expression_65 * t409;
-  const Real t413 = t411 + t411;
-  const Real t415 = q0r1_y * (t410 + t410);
-  const Real t417 = q0r0_y * t413;
-  const Real t419 = t417 - ((q0r2_y + q0r2_y) * t409 + t415);
-  const Real t420 = expression_68 * t419;
-  const Real t423 = q0r2_y * t413 + expression_65 * (t415 - t417);
-  const Real t428 = q0d3 * t423 - q0d1 * t419;
-  const Real t442 = q0d3 * t420 + Real(2.0) * (state.y[6] * t420 - (state.y[3] * t423 - state.y[5] * t419));
-  const Real t446 = q0d3 * t419 + q0d1 * t423;
-  const Real t451 = Real(2.0) * (state.y[3] * t419 + state.y[4] * t420) + (q0d2 * t423 + q0d1 * t420);
-  const Real t455 = t399 * t451 + (t402 * t446 + (t400 * t428 - t401 * t442));
-  const Real t459 = t401 * t451 - (t400 * t446 - (t402 * t428 + t399 * t442));
+  const Real t407 = expression_68 * groundgo_3;
+  const Real t408 = expression_65 * groundgo_3;
+  const Real t411 = groundgo_3 * groundggi * model.c18;
+  const Real t412 = expression_68 * t411;
+  const Real t413 = expression_65 * t411;
+  const Real t415 = t413 + t413;
+  const Real t417 = q0r1_y * (t412 + t412);
+  const Real t419 = q0r0_y * t415;
+  const Real t421 = t417 - ((q0r2_y + q0r2_y) * t411 - t419);
+  const Real t422 = expression_68 * t421;
+  const Real t425 = q0r2_y * t415 - expression_65 * (t417 + t419);
+  const Real t430 = q0d3 * t425 - q0d1 * t421;
+  const Real t444 = q0d3 * t422 - Real(2.0) * (state.y[5] * t421 - (state.y[3] * t425 + state.y[6] * t422));
+  const Real t448 = q0d3 * t421 + q0d1 * t425;
+  const Real t453 = q0d1 * t422 - (q0d2 * t425 + Real(2.0) * (state.y[3] * t421 - state.y[4] * t422));
+  const Real t457 = t403 * t444 + (t402 * t430 + (t404 * t448 - t401 * t453));
+  const Real t461 = t401 * t444 - (t404 * t430 - (t402 * t448 + t403 * t453));
   const Real q022 = state.y[5] * q0d2;
   const Real q013 = state.y[4] * q0d3;
   const Real q002 = q0d2 * state.y[3];
-  const Real q0r0_x = q022 + (q033 - Real(1.0));
+  const Real q0r0_x = Real(1.0) - (q033 + q022);
   const Real q0r0_z = q013 + q002;
   const Real q0r1_x = q012 + q003;
   const Real q0r1_z = q023 - q001;
@@ -1209,92 +1172,73 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real groundgv_x = model.radius * groundggq_x;
   const Real groundgv_y = model.radius * groundggq_y;
   const Real groundgv_z = model.radius * groundggq_z;
-  const Real grounds1bf0_x = q0r2_x * groundgy_z - (q0r0_x * groundgy_x + q0r1_x * groundgy_y);
-  const Real grounds1bf0_y = q0r2_y * groundgy_z + (q0r0_y * groundgy_x + q0r1_y * groundgy_y);
-  const Real grounds1bf0_z = q0r2_z * groundgy_z - (q0r0_z * groundgy_x - q0r1_z * groundgy_y);
-  const Real t500 = groundgy_x * groundgv_y + groundgy_y * groundgv_x;
-  const Real t504 = groundgy_x * groundgv_z - groundgy_z * groundgv_x;
-  const Real t508 = groundgy_y * groundgv_z + groundgy_z * groundgv_y;
-  const Real grounds1bn0_x = q0r0_x * t508 + (q0r2_x * t500 - q0r1_x * t504);
-  const Real grounds1bn0_y = q0r0_y * t508 - (q0r2_y * t500 + q0r1_y * t504);
-  const Real grounds1bn0_z = q0r0_z * t508 + (q0r2_z * t500 + q0r1_z * t504);
-  const Real grounds1bf_x = q0r0_z * grounds1bf0_z + (q0r0_x * grounds1bf0_x - q0r0_y * grounds1bf0_y);
-  const Real grounds1bf_y = q0r1_z * grounds1bf0_z - (q0r1_x * grounds1bf0_x - q0r1_y * grounds1bf0_y);
-  const Real grounds1bf_z = q0r2_z * grounds1bf0_z + (q0r2_x * grounds1bf0_x + q0r2_y * grounds1bf0_y);
+  const Real t487 = groundgy_x * groundgv_y - groundgy_y * groundgv_x;
+  const Real t491 = groundgy_x * groundgv_z + groundgy_z * groundgv_x;
+  const Real t495 = groundgy_y * groundgv_z + groundgy_z * groundgv_y;
+  const Real grounds1bn0_x = q0r1_x * t491 + (q0r2_x * t487 - q0r0_x * t495);
+  const Real grounds1bn0_y = q0r1_y * t491 - (q0r2_y * t487 - q0r0_y * t495);
+  const Real grounds1bn0_z = q0r1_z * t491 - (q0r2_z * t487 + q0r0_z * t495);
   const Real groundgz_z = expression_68 * groundgo_4;
-  const Real grounds2bf0_x = q0r1_x * groundgo_4 + q0r2_x * groundgz_z;
-  const Real grounds2bf0_y = q0r1_y * groundgo_4 - q0r2_y * groundgz_z;
-  const Real grounds2bf0_z = q0r1_z * groundgo_4 - q0r2_z * groundgz_z;
-  const Real t549 = groundgo_4 * groundgv_z - groundgv_y * groundgz_z;
-  const Real grounds2bn0_x = q0r0_x * t549 - groundgv_x * (q0r1_x * groundgz_z - q0r2_x * groundgo_4);
-  const Real grounds2bn0_y = q0r0_y * t549 - groundgv_x * (q0r1_y * groundgz_z + q0r2_y * groundgo_4);
-  const Real grounds2bn0_z = q0r0_z * t549 + groundgv_x * (q0r1_z * groundgz_z + q0r2_z * groundgo_4);
-  const Real grounds2bf_x = q0r0_z * grounds2bf0_z - (q0r0_x * grounds2bf0_x + q0r0_y * grounds2bf0_y);
-  const Real grounds2bf_y = q0r1_z * grounds2bf0_z + (q0r1_x * grounds2bf0_x + q0r1_y * grounds2bf0_y);
-  const Real grounds2bf_z = q0r2_z * grounds2bf0_z - (q0r2_x * grounds2bf0_x - q0r2_y * grounds2bf0_y);
-  const Real t587 = grounds1bf_x * model.c11;
-  const Real t588 = grounds1bf_y * model.c11;
-  const Real t589 = grounds1bf_z * model.c11;
-  const Real t591 = grounds1bn0_x * model.c19;
-  const Real t592 = grounds1bn0_z * model.c19;
-  const Real t601 = t459 * t592 - (t455 * t591 + (groundgo_3 * t589 + (t406 * t587 + t405 * t588)));
-  const Real t610 = grounds2bf_x * model.c11;
-  const Real t611 = grounds2bf_y * model.c11;
-  const Real t612 = grounds2bf_z * model.c11;
-  const Real t613 = grounds2bn0_x * model.c19;
-  const Real t614 = grounds2bn0_y * model.c13;
-  const Real t615 = grounds2bn0_z * model.c19;
-  const Real t624 = t459 * t615 - (t455 * t613 + (groundgo_3 * t612 + (t406 * t610 + t405 * t611)));
-  const Real t644 = Real(1.0) / (model.c11 * (groundgo_2 * (groundgo_3 * groundgo_3)) + model.c19 * (t455 *
-      t455 + t459 * t459) + Real(4.9999999999999995e-11));
-  const Real t645 = t601 * t644;
-  const Real t655 = t624 * t644;
-  const Real t662 = t601 * t655 - (grounds1bn0_z * t615 + (grounds1bn0_y * t614 + (grounds1bn0_x * t613 +
-      (grounds1bf_z * t612 + (grounds1bf_x * t610 + grounds1bf_y * t611)))));
-  const Real t664 = Real(1.0) / (t601 * t645 - (grounds1bn0_z * t592 + (grounds1bn0_y * grounds1bn0_y *
-      model.c13 + (grounds1bn0_x * t591 + (grounds1bf_z * t589 + (grounds1bf_x * t587 + grounds1bf_y *
-      t588))))) - Real(1.5000000000000002e-10));
-  const Real t665 = t662 * t664;
-  const Real t676 = Real(1.0) / (t662 * t665 - (t624 * t655 - (grounds2bn0_z * t615 + (grounds2bn0_y * t614 +
-      (grounds2bn0_x * t613 + (grounds2bf_z * t612 + (grounds2bf_x * t610 + grounds2bf_y * t611)))))) +
-      Real(2.5e-10));
-  const Real t677 = g_ground * t645;
-  const Real t683 = t676 * (g_ground * t655 - t665 * t677);
-  const Real t685 = t664 * t677 + t665 * t683;
-  const Real t689 = t655 * t683 + (g_ground * t644 - t645 * t685);
-  const Real t718 = model.c11 * (grounds2bf_x * t683 + (t406 * t689 - grounds1bf_x * t685));
-  const Real t719 = model.c11 * (grounds2bf_y * t683 + (t405 * t689 - grounds1bf_y * t685));
-  const Real t720 = model.c11 * (grounds2bf_z * t683 + (groundgo_3 * t689 - grounds1bf_z * t685));
-  const Real t721 = model.c19 * (grounds2bn0_x * t683 + (t455 * t689 - grounds1bn0_x * t685));
-  const Real t722 = model.c13 * (grounds1bn0_y * t685 - grounds2bn0_y * t683);
-  const Real t723 = model.c19 * (grounds2bn0_z * t683 - (t459 * t689 + grounds1bn0_z * t685));
-  const Real t724 = state.y[0] + t718;
-  const Real t725 = state.y[1] + t719;
-  const Real t727 = Real(0.5) * t721;
-  const Real t728 = Real(0.5) * t722;
-  const Real t729 = Real(0.5) * t723;
-  const Real t736 = state.y[6] * t728 + (state.y[5] * t729 - (state.y[4] + state.y[3] * t727));
-  const Real t743 = state.y[4] * t729 + (state.y[6] * t727 + (state.y[5] + state.y[3] * t728));
-  const Real t747 = state.y[6] * t729 - (state.y[5] * t728 - (state.y[3] - state.y[4] * t727));
-  const Real t753 = state.y[5] * t727 - (state.y[4] * t728 + (state.y[6] - state.y[3] * t729));
-  const Real t762 = Real(1.0) / detail::square_root(t753 * t753 + (t743 * t743 + (t747 * t747 + t736 *
-      t736)));
-  const Real t763 = t747 * t762;
-  const Real t764 = t736 * t762;
-  const Real t765 = t743 * t762;
-  const Real t766 = t753 * t762;
-  const Real q0d1_2 = Real(2.0) * t764;
-  const Real q0d2_2 = Real(2.0) * t765;
-  const Real q0d3_2 = Real(2.0) * t766;
-  const Real q011_2 = t764 * q0d1_2;
-  const Real q033_2 = t766 * q0d3_2;
-  const Real q012_2 = t764 * q0d2_2;
-  const Real q023_2 = t765 * q0d3_2;
-  const Real q001_2 = t763 * q0d1_2;
-  const Real q003_2 = t763 * q0d3_2;
+  const Real t512 = groundgo_4 * groundgv_z - groundgv_y * groundgz_z;
+  const Real grounds2bn0_x = q0r0_x * t512 + groundgv_x * (q0r1_x * groundgz_z + q0r2_x * groundgo_4);
+  const Real grounds2bn0_y = q0r0_y * t512 - groundgv_x * (q0r1_y * groundgz_z - q0r2_y * groundgo_4);
+  const Real grounds2bn0_z = q0r0_z * t512 + groundgv_x * (q0r1_z * groundgz_z - q0r2_z * groundgo_4);
+  const Real t535 = grounds1bn0_x * model.c19;
+  const Real t536 = grounds1bn0_z * model.c19;
+  const Real t539 = t457 * t535 - t461 * t536;
+  const Real t548 = grounds2bn0_x * model.c19;
+  const Real t549 = grounds2bn0_y * model.c12;
+  const Real t550 = grounds2bn0_z * model.c19;
+  const Real t553 = t457 * t548 - t461 * t550;
+  const Real t559 = groundgo_4 * groundgo_4 * model.c13;
+  const Real t571 = Real(1.0) / (model.c13 * (groundgo_2 * (groundgo_3 * groundgo_3)) + model.c19 * (t457 *
+      t457 + t461 * t461) + Real(4.9999999999999995e-11));
+  const Real t572 = t539 * t571;
+  const Real t583 = t553 * t571;
+  const Real t587 = grounds1bn0_y * t549 - (grounds1bn0_x * t548 + (grounds1bn0_z * t550 - t539 * t583));
+  const Real t589 = Real(1.0) / (model.c13 * (groundgy_y * groundgy_y + (groundgy_x * groundgy_x + groundgy_z
+      * groundgy_z)) + (grounds1bn0_x * t535 + (grounds1bn0_y * grounds1bn0_y * model.c12 + (grounds1bn0_z *
+      t536 - t539 * t572)) + Real(1.5000000000000002e-10)));
+  const Real t590 = t587 * t589;
+  const Real t600 = Real(1.0) / (t383 * t559 + (t559 + (grounds2bn0_x * t548 + (grounds2bn0_y * t549 +
+      (grounds2bn0_z * t550 - (t553 * t583 + t587 * t590))))) + Real(2.5e-10));
+  const Real t601 = g_ground * t572;
+  const Real t607 = t600 * (g_ground * t583 + t590 * t601);
+  const Real t609 = t589 * t601 + t590 * t607;
+  const Real t613 = t572 * t609 + (g_ground * t571 + t583 * t607);
+  const Real t640 = model.c13 * (t408 * t613 + groundgy_x * t609);
+  const Real t641 = model.c13 * (groundgy_y * t609 - (t407 * t613 + groundgo_4 * t607));
+  const Real t642 = model.c13 * (groundgy_z * t609 - (groundgo_3 * t613 - groundgz_z * t607));
+  const Real t643 = model.c19 * (grounds1bn0_x * t609 - (t457 * t613 - grounds2bn0_x * t607));
+  const Real t644 = model.c12 * (grounds1bn0_y * t609 - grounds2bn0_y * t607);
+  const Real t645 = model.c19 * (grounds1bn0_z * t609 + (t461 * t613 + grounds2bn0_z * t607));
+  const Real t646 = state.y[0] - t640;
+  const Real t647 = state.y[1] - t641;
+  const Real t649 = Real(0.5) * t643;
+  const Real t650 = Real(0.5) * t644;
+  const Real t651 = Real(0.5) * t645;
+  const Real t658 = state.y[3] * t649 + (state.y[4] + (state.y[5] * t651 + state.y[6] * t650));
+  const Real t665 = state.y[3] * t650 - (state.y[5] + (state.y[6] * t649 - state.y[4] * t651));
+  const Real t669 = state.y[4] * t649 - (state.y[3] + (state.y[5] * t650 - state.y[6] * t651));
+  const Real t675 = state.y[3] * t651 + (state.y[6] - (state.y[4] * t650 + state.y[5] * t649));
+  const Real t684 = Real(1.0) / detail::square_root(t658 * t658 + (t669 * t669 + (t665 * t665 + t675 *
+      t675)));
+  const Real t685 = t669 * t684;
+  const Real t686 = t658 * t684;
+  const Real t687 = t665 * t684;
+  const Real t688 = t675 * t684;
+  const Real q0d1_2 = Real(2.0) * t686;
+  const Real q0d2_2 = Real(2.0) * t687;
+  const Real q0d3_2 = Real(2.0) * t688;
+  const Real q011_2 = t686 * q0d1_2;
+  const Real q033_2 = t688 * q0d3_2;
+  const Real q012_2 = t686 * q0d2_2;
+  const Real q023_2 = t687 * q0d3_2;
+  const Real q001_2 = t685 * q0d1_2;
+  const Real q003_2 = t685 * q0d3_2;
   const Real q0r0_y_2 = q012_2 - q003_2;
-  const Real t777 = Real(1.0) - q011_2;
-  const Real q0r1_y_2 = q033_2 - t777;
+  const Real t699 = Real(1.0) - q011_2;
+  const Real q0r1_y_2 = q033_2 - t699;
   const Real q0r2_y_2 = q023_2 + q001_2;
   const Real groundgs_xx_2 = Real(1.0) - q0r0_y_2 * q0r0_y_2;
   const Real groundgs_xy_2 = q0r0_y_2 * q0r1_y_2;
@@ -1302,11 +1246,11 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real groundgs_yy_2 = Real(1.0) - q0r1_y_2 * q0r1_y_2;
   const Real groundgs_yz_2 = q0r1_y_2 * q0r2_y_2;
   const Real groundgs_zz_2 = Real(1.0) - q0r2_y_2 * q0r2_y_2;
-  const Real expression_69 = model.wave * t724;
+  const Real expression_69 = model.wave * t646;
   Real expression_75, expression_70;
   detail::sine_cosine(expression_69, expression_75, expression_70);
   const Real expression_71 = model.c6 * expression_70;
-  const Real expression_72 = model.wave * t725;
+  const Real expression_72 = model.wave * t647;
   Real expression_78, expression_73;
   detail::sine_cosine(expression_72, expression_78, expression_73);
   const Real expression_74 = expression_71 * expression_73;
@@ -1316,11 +1260,11 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real expression_80 = expression_77 * expression_79;
   const Real expression_81 = expression_71 * expression_79;
   const Real expression_82 = model.c9 * (expression_73 * expression_77);
-  const Real groundg0e_x_2 = groundgs_xy_2 * expression_80 + (groundgs_xz_2 + groundgs_xx_2 * expression_74);
-  const Real groundg0e_y_2 = groundgs_yy_2 * expression_80 - (groundgs_yz_2 - groundgs_xy_2 * expression_74);
-  const Real groundg0u_2 = expression_74 * (groundgs_xz_2 + groundg0e_x_2) + (groundgs_zz_2 - expression_80 *
-      (groundgs_yz_2 - groundg0e_y_2));
-  const Real groundg0r_2 = detail::square_root(groundg0u_2);
+  const Real groundg0e_x_2 = groundgs_xx_2 * expression_74 + (groundgs_xz_2 + groundgs_xy_2 * expression_80);
+  const Real groundg0e_y_2 = groundgs_xy_2 * expression_74 - (groundgs_yz_2 - groundgs_yy_2 * expression_80);
+  const Real groundg0u_2 = expression_80 * (groundgs_yz_2 - groundg0e_y_2) - (groundgs_zz_2 + expression_74 *
+      (groundgs_xz_2 + groundg0e_x_2));
+  const Real groundg0r_2 = detail::square_root(-groundg0u_2);
   const Real groundg0i_2 = Real(1.0) / groundg0r_2;
   const Real groundg0q_x_2 = groundg0e_x_2 * groundg0i_2;
   const Real groundg0q_y_2 = groundg0e_y_2 * groundg0i_2;
@@ -1330,14 +1274,14 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real groundg0f_4 = model.radius * groundg0q_y_2;
   const Real groundg0p_5 = groundgs_xy_2 - groundg0q_x_2 * groundg0q_y_2;
   const Real groundg0p_6 = groundgs_yy_2 - groundg0q_y_2 * groundg0q_y_2;
-  const Real t833 = expression_81 * groundg0p_5;
-  const Real groundg0k_5 = expression_76 * groundg0p_4 - t833;
+  const Real t756 = expression_81 * groundg0p_5;
+  const Real groundg0k_5 = expression_76 * groundg0p_4 - t756;
   const Real groundg0j_5 = Real(1.0) + groundg0l_2 * groundg0k_5;
   const Real groundg0k_6 = expression_81 * groundg0p_4 - expression_82 * groundg0p_5;
   const Real groundg0j_6 = groundg0l_2 * groundg0k_6;
   const Real groundg0k_7 = expression_76 * groundg0p_5 - expression_81 * groundg0p_6;
   const Real groundg0j_7 = groundg0l_2 * groundg0k_7;
-  const Real groundg0k_8 = t833 - expression_82 * groundg0p_6;
+  const Real groundg0k_8 = t756 - expression_82 * groundg0p_6;
   const Real groundg0j_8 = Real(1.0) - groundg0l_2 * groundg0k_8;
   const Real groundg0t_2 = groundg0j_5 * groundg0j_8 + groundg0j_6 * groundg0j_7;
   const Real groundg0d_2 = Real(1.0) / groundg0t_2;
@@ -1345,8 +1289,8 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real groundg0a_6 = groundg0j_6 * groundg0d_2;
   const Real groundg0a_7 = groundg0j_7 * groundg0d_2;
   const Real groundg0a_8 = groundg0j_5 * groundg0d_2;
-  const Real groundgc_9 = groundg0f_4 * groundg0a_6 + (t724 + groundg0f_3 * groundg0a_5);
-  const Real groundgc_10 = groundg0f_4 * groundg0a_8 - (t725 + groundg0f_3 * groundg0a_7);
+  const Real groundgc_9 = groundg0f_3 * groundg0a_5 + (t646 + groundg0f_4 * groundg0a_6);
+  const Real groundgc_10 = groundg0f_3 * groundg0a_7 + (t647 - groundg0f_4 * groundg0a_8);
   const Real expression_83 = model.wave * groundgc_9;
   Real expression_89, expression_84;
   detail::sine_cosine(expression_83, expression_89, expression_84);
@@ -1361,37 +1305,37 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real expression_94 = expression_91 * expression_93;
   const Real expression_95 = expression_85 * expression_93;
   const Real expression_96 = model.c9 * (expression_87 * expression_91);
-  const Real groundg1e_x_2 = groundgs_xy_2 * expression_94 - (groundgs_xz_2 + groundgs_xx_2 * expression_88);
-  const Real groundg1e_y_2 = groundgs_yy_2 * expression_94 + (groundgs_yz_2 - groundgs_xy_2 * expression_88);
-  const Real groundg1u_2 = expression_88 * (groundgs_xz_2 - groundg1e_x_2) + (groundgs_zz_2 + expression_94 *
-      (groundgs_yz_2 + groundg1e_y_2));
-  const Real groundg1r_2 = detail::square_root(groundg1u_2);
+  const Real groundg1e_x_2 = groundgs_xx_2 * expression_88 + (groundgs_xz_2 + groundgs_xy_2 * expression_94);
+  const Real groundg1e_y_2 = groundgs_xy_2 * expression_88 - (groundgs_yz_2 - groundgs_yy_2 * expression_94);
+  const Real groundg1u_2 = expression_94 * (groundgs_yz_2 - groundg1e_y_2) - (groundgs_zz_2 + expression_88 *
+      (groundgs_xz_2 + groundg1e_x_2));
+  const Real groundg1r_2 = detail::square_root(-groundg1u_2);
   const Real groundg1i_2 = Real(1.0) / groundg1r_2;
   const Real groundg1q_x_2 = groundg1e_x_2 * groundg1i_2;
   const Real groundg1q_y_2 = groundg1e_y_2 * groundg1i_2;
   const Real groundg1l_2 = model.radius * groundg1i_2;
-  const Real groundg1f_3 = model.radius * groundg1q_x_2 - (t724 - groundgc_9);
+  const Real groundg1f_3 = groundgc_9 - (t646 + model.radius * groundg1q_x_2);
   const Real groundg1p_4 = groundgs_xx_2 - groundg1q_x_2 * groundg1q_x_2;
-  const Real groundg1f_4 = model.radius * groundg1q_y_2 + (t725 + groundgc_10);
+  const Real groundg1f_4 = groundgc_10 - (t647 - model.radius * groundg1q_y_2);
   const Real groundg1p_5 = groundgs_xy_2 - groundg1q_x_2 * groundg1q_y_2;
   const Real groundg1p_6 = groundgs_yy_2 - groundg1q_y_2 * groundg1q_y_2;
-  const Real t913 = expression_95 * groundg1p_5;
-  const Real groundg1k_5 = expression_90 * groundg1p_4 + t913;
+  const Real t837 = expression_95 * groundg1p_5;
+  const Real groundg1k_5 = expression_90 * groundg1p_4 - t837;
   const Real groundg1j_5 = Real(1.0) + groundg1l_2 * groundg1k_5;
-  const Real groundg1k_6 = expression_95 * groundg1p_4 + expression_96 * groundg1p_5;
+  const Real groundg1k_6 = expression_95 * groundg1p_4 - expression_96 * groundg1p_5;
   const Real groundg1j_6 = groundg1l_2 * groundg1k_6;
-  const Real groundg1k_7 = expression_90 * groundg1p_5 + expression_95 * groundg1p_6;
+  const Real groundg1k_7 = expression_90 * groundg1p_5 - expression_95 * groundg1p_6;
   const Real groundg1j_7 = groundg1l_2 * groundg1k_7;
-  const Real groundg1k_8 = t913 + expression_96 * groundg1p_6;
-  const Real groundg1j_8 = Real(1.0) + groundg1l_2 * groundg1k_8;
-  const Real groundg1t_2 = groundg1j_5 * groundg1j_8 - groundg1j_6 * groundg1j_7;
+  const Real groundg1k_8 = t837 - expression_96 * groundg1p_6;
+  const Real groundg1j_8 = Real(1.0) - groundg1l_2 * groundg1k_8;
+  const Real groundg1t_2 = groundg1j_5 * groundg1j_8 + groundg1j_6 * groundg1j_7;
   const Real groundg1d_2 = Real(1.0) / groundg1t_2;
   const Real groundg1a_5 = groundg1j_8 * groundg1d_2;
   const Real groundg1a_6 = groundg1j_6 * groundg1d_2;
   const Real groundg1a_7 = groundg1j_7 * groundg1d_2;
   const Real groundg1a_8 = groundg1j_5 * groundg1d_2;
-  const Real groundgc_11 = groundg1f_4 * groundg1a_6 + (groundgc_9 - groundg1f_3 * groundg1a_5);
-  const Real groundgc_12 = groundg1f_4 * groundg1a_8 - (groundgc_10 + groundg1f_3 * groundg1a_7);
+  const Real groundgc_11 = groundg1f_3 * groundg1a_5 - (groundgc_9 + groundg1f_4 * groundg1a_6);
+  const Real groundgc_12 = groundg1f_3 * groundg1a_7 - (groundgc_10 - groundg1f_4 * groundg1a_8);
   const Real expression_97 = model.wave * groundgc_11;
   Real expression_103, expression_98;
   detail::sine_cosine(expression_97, expression_103, expression_98);
@@ -1406,39 +1350,39 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real expression_108 = expression_105 * expression_107;
   const Real expression_109 = expression_99 * expression_107;
   const Real expression_110 = model.c9 * (expression_101 * expression_105);
-  const Real groundg2e_x_2 = groundgs_xy_2 * expression_108 + (groundgs_xz_2 + groundgs_xx_2 *
-      expression_102);
-  const Real groundg2e_y_2 = groundgs_yy_2 * expression_108 - (groundgs_yz_2 - groundgs_xy_2 *
-      expression_102);
-  const Real groundg2u_2 = expression_102 * (groundgs_xz_2 + groundg2e_x_2) + (groundgs_zz_2 - expression_108
-      * (groundgs_yz_2 - groundg2e_y_2));
-  const Real groundg2r_2 = detail::square_root(groundg2u_2);
+  const Real groundg2e_x_2 = groundgs_xx_2 * expression_102 + (groundgs_xz_2 + groundgs_xy_2 *
+      expression_108);
+  const Real groundg2e_y_2 = groundgs_xy_2 * expression_102 - (groundgs_yz_2 - groundgs_yy_2 *
+      expression_108);
+  const Real groundg2u_2 = expression_108 * (groundgs_yz_2 - groundg2e_y_2) - (groundgs_zz_2 + expression_102
+      * (groundgs_xz_2 + groundg2e_x_2));
+  const Real groundg2r_2 = detail::square_root(-groundg2u_2);
   const Real groundg2i_2 = Real(1.0) / groundg2r_2;
   const Real groundg2q_x_2 = groundg2e_x_2 * groundg2i_2;
   const Real groundg2q_y_2 = groundg2e_y_2 * groundg2i_2;
   const Real groundg2l_2 = model.radius * groundg2i_2;
-  const Real groundg2f_3 = model.radius * groundg2q_x_2 + (t724 - groundgc_11);
+  const Real groundg2f_3 = groundgc_11 + (t646 + model.radius * groundg2q_x_2);
   const Real groundg2p_4 = groundgs_xx_2 - groundg2q_x_2 * groundg2q_x_2;
-  const Real groundg2f_4 = model.radius * groundg2q_y_2 - (t725 - groundgc_12);
+  const Real groundg2f_4 = groundgc_12 + (t647 - model.radius * groundg2q_y_2);
   const Real groundg2p_5 = groundgs_xy_2 - groundg2q_x_2 * groundg2q_y_2;
   const Real groundg2p_6 = groundgs_yy_2 - groundg2q_y_2 * groundg2q_y_2;
-  const Real t993 = expression_109 * groundg2p_5;
-  const Real groundg2k_5 = expression_104 * groundg2p_4 - t993;
-  const Real groundg2j_5 = Real(1.0) + groundg2l_2 * groundg2k_5;
+  const Real t918 = expression_109 * groundg2p_5;
+  const Real groundg2k_5 = expression_104 * groundg2p_4 - t918;
+  const Real groundg2j_5 = Real(1.0) - groundg2l_2 * groundg2k_5;
   const Real groundg2k_6 = expression_109 * groundg2p_4 - expression_110 * groundg2p_5;
   const Real groundg2j_6 = groundg2l_2 * groundg2k_6;
   const Real groundg2k_7 = expression_104 * groundg2p_5 - expression_109 * groundg2p_6;
   const Real groundg2j_7 = groundg2l_2 * groundg2k_7;
-  const Real groundg2k_8 = t993 - expression_110 * groundg2p_6;
-  const Real groundg2j_8 = Real(1.0) - groundg2l_2 * groundg2k_8;
+  const Real groundg2k_8 = t918 - expression_110 * groundg2p_6;
+  const Real groundg2j_8 = Real(1.0) + groundg2l_2 * groundg2k_8;
   const Real groundg2t_2 = groundg2j_5 * groundg2j_8 + groundg2j_6 * groundg2j_7;
   const Real groundg2d_2 = Real(1.0) / groundg2t_2;
   const Real groundg2a_5 = groundg2j_8 * groundg2d_2;
   const Real groundg2a_6 = groundg2j_6 * groundg2d_2;
   const Real groundg2a_7 = groundg2j_7 * groundg2d_2;
   const Real groundg2a_8 = groundg2j_5 * groundg2d_2;
-  const Real groundgc_13 = groundg2f_4 * groundg2a_6 + (groundgc_11 + groundg2f_3 * groundg2a_5);
-  const Real groundgc_14 = groundg2f_4 * groundg2a_8 - (groundgc_12 + groundg2f_3 * groundg2a_7);
+  const Real groundgc_13 = groundg2f_3 * groundg2a_5 - (groundgc_11 - groundg2f_4 * groundg2a_6);
+  const Real groundgc_14 = groundg2f_3 * groundg2a_7 + (groundgc_12 - groundg2f_4 * groundg2a_8);
   const Real expression_111 = model.wave * groundgc_13;
   Real expression_117, expression_112;
   detail::sine_cosine(expression_111, expression_117, expression_112);
@@ -1453,30 +1397,30 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real expression_122 = expression_119 * expression_121;
   const Real expression_123 = expression_113 * expression_121;
   const Real expression_124 = model.c9 * (expression_115 * expression_119);
-  const Real groundg3e_x_2 = groundgs_xy_2 * expression_122 - (groundgs_xz_2 + groundgs_xx_2 *
-      expression_116);
-  const Real groundg3e_y_2 = groundgs_yy_2 * expression_122 + (groundgs_yz_2 - groundgs_xy_2 *
-      expression_116);
-  const Real groundg3u_2 = expression_116 * (groundgs_xz_2 - groundg3e_x_2) + (groundgs_zz_2 + expression_122
-      * (groundgs_yz_2 + groundg3e_y_2));
+  const Real groundg3e_x_2 = groundgs_xx_2 * expression_116 + (groundgs_xz_2 - groundgs_xy_2 *
+      expression_122);
+  const Real groundg3e_y_2 = groundgs_xy_2 * expression_116 - (groundgs_yz_2 + groundgs_yy_2 *
+      expression_122);
+  const Real groundg3u_2 = expression_122 * (groundgs_yz_2 - groundg3e_y_2) + (groundgs_zz_2 + expression_116
+      * (groundgs_xz_2 + groundg3e_x_2));
   const Real groundg3r_2 = detail::square_root(groundg3u_2);
   const Real groundg3i_2 = Real(1.0) / groundg3r_2;
   const Real groundg3q_x_2 = groundg3e_x_2 * groundg3i_2;
   const Real groundg3q_y_2 = groundg3e_y_2 * groundg3i_2;
   const Real groundg3l_2 = model.radius * groundg3i_2;
-  const Real groundg3f_3 = model.radius * groundg3q_x_2 - (t724 - groundgc_13);
+  const Real groundg3f_3 = groundgc_13 - (t646 + model.radius * groundg3q_x_2);
   const Real groundg3p_4 = groundgs_xx_2 - groundg3q_x_2 * groundg3q_x_2;
-  const Real groundg3f_4 = model.radius * groundg3q_y_2 + (t725 + groundgc_14);
+  const Real groundg3f_4 = groundgc_14 + (t647 - model.radius * groundg3q_y_2);
   const Real groundg3p_5 = groundgs_xy_2 - groundg3q_x_2 * groundg3q_y_2;
   const Real groundg3p_6 = groundgs_yy_2 - groundg3q_y_2 * groundg3q_y_2;
-  const Real t1073 = expression_123 * groundg3p_5;
-  const Real groundg3k_5 = expression_118 * groundg3p_4 + t1073;
+  const Real t998 = expression_123 * groundg3p_5;
+  const Real groundg3k_5 = expression_118 * groundg3p_4 + t998;
   const Real groundg3j_5 = Real(1.0) + groundg3l_2 * groundg3k_5;
   const Real groundg3k_6 = expression_123 * groundg3p_4 + expression_124 * groundg3p_5;
   const Real groundg3j_6 = groundg3l_2 * groundg3k_6;
   const Real groundg3k_7 = expression_118 * groundg3p_5 + expression_123 * groundg3p_6;
   const Real groundg3j_7 = groundg3l_2 * groundg3k_7;
-  const Real groundg3k_8 = t1073 + expression_124 * groundg3p_6;
+  const Real groundg3k_8 = t998 + expression_124 * groundg3p_6;
   const Real groundg3j_8 = Real(1.0) + groundg3l_2 * groundg3k_8;
   const Real groundg3t_2 = groundg3j_5 * groundg3j_8 - groundg3j_6 * groundg3j_7;
   const Real groundg3d_2 = Real(1.0) / groundg3t_2;
@@ -1484,8 +1428,8 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real groundg3a_6 = groundg3j_6 * groundg3d_2;
   const Real groundg3a_7 = groundg3j_7 * groundg3d_2;
   const Real groundg3a_8 = groundg3j_5 * groundg3d_2;
-  const Real groundgc_15 = groundg3f_4 * groundg3a_6 + (groundgc_13 - groundg3f_3 * groundg3a_5);
-  const Real groundgc_16 = groundg3f_4 * groundg3a_8 - (groundgc_14 + groundg3f_3 * groundg3a_7);
+  const Real groundgc_15 = groundg3f_3 * groundg3a_5 - (groundgc_13 + groundg3f_4 * groundg3a_6);
+  const Real groundgc_16 = groundg3f_3 * groundg3a_7 + (groundgc_14 - groundg3f_4 * groundg3a_8);
   const Real expression_125 = model.wave * groundgc_15;
   Real expression_126, expression_129;
   detail::sine_cosine(expression_125, expression_126, expression_129);
@@ -1494,46 +1438,46 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   detail::sine_cosine(expression_127, expression_131, expression_128);
   const Real expression_130 = model.c6 * (expression_128 * expression_129);
   const Real expression_132 = model.c6 * (expression_126 * expression_131);
-  const Real groundgge_x_2 = groundgs_xy_2 * expression_132 + (groundgs_xz_2 + groundgs_xx_2 *
-      expression_130);
-  const Real groundgge_y_2 = groundgs_yy_2 * expression_132 - (groundgs_yz_2 - groundgs_xy_2 *
-      expression_130);
-  const Real groundgge_z_2 = groundgs_yz_2 * expression_132 - (groundgs_zz_2 + groundgs_xz_2 *
-      expression_130);
-  const Real groundggu_2 = expression_132 * groundgge_y_2 - (groundgge_z_2 - expression_130 * groundgge_x_2);
+  const Real groundgge_x_2 = groundgs_xx_2 * expression_130 + (groundgs_xz_2 + groundgs_xy_2 *
+      expression_132);
+  const Real groundgge_y_2 = groundgs_xy_2 * expression_130 - (groundgs_yz_2 - groundgs_yy_2 *
+      expression_132);
+  const Real groundgge_z_2 = groundgs_xz_2 * expression_130 + (groundgs_zz_2 - groundgs_yz_2 *
+      expression_132);
+  const Real groundggu_2 = expression_130 * groundgge_x_2 + (groundgge_z_2 + expression_132 * groundgge_y_2);
   const Real groundggr_2 = detail::square_root(groundggu_2);
   const Real groundgo_6 = Real(1.0) + expression_132 * expression_132;
   const Real groundgo_7 = groundgo_6 + expression_130 * expression_130;
   const Real groundgo_8 = Real(1.0) / detail::square_root(groundgo_7);
-  const Real t1138 = Real(0.5) * t763;
-  const Real t1139 = Real(0.5) * t764;
-  const Real t1140 = Real(0.5) * t765;
-  const Real t1141 = Real(0.5) * t766;
+  const Real t1063 = Real(0.5) * t685;
+  const Real t1064 = Real(0.5) * t686;
+  const Real t1065 = Real(0.5) * t687;
+  const Real t1066 = Real(0.5) * t688;
   const Real groundggi_2 = Real(1.0) / groundggr_2;
-  const Real t1147 = model.c18 * (groundgo_8 * groundggi_2);
-  const Real t1148 = expression_132 * t1147;
-  const Real t1149 = expression_130 * t1147;
-  const Real t1150 = t1148 + t1148;
-  const Real t1151 = t1149 + t1149;
-  const Real t1152 = expression_130 * t1150;
-  const Real t1155 = q0r1_y_2 * t1150;
-  const Real t1158 = q0r0_y_2 * t1151;
-  const Real t1160 = t1158 - ((q0r2_y_2 + q0r2_y_2) * t1147 + t1155);
-  const Real t1164 = q0r0_y_2 * t1152 - (q0r2_y_2 * t1150 + expression_132 * t1155);
-  const Real t1167 = expression_130 * t1158 - (q0r2_y_2 * t1151 + q0r1_y_2 * t1152);
-  const Real t1172 = q0d3_2 * t1167 + q0d1_2 * t1160;
-  const Real t1186 = q0d3_2 * t1164 + Real(2.0) * (t766 * t1164 + (t763 * t1167 + t765 * t1160));
-  const Real t1190 = q0d3_2 * t1160 - q0d1_2 * t1167;
-  const Real t1195 = Real(2.0) * (t763 * t1160 + t764 * t1164) - (q0d2_2 * t1167 - q0d1_2 * t1164);
-  const Real q022_2 = t765 * q0d2_2;
-  const Real q013_2 = t764 * q0d3_2;
-  const Real q002_2 = t763 * q0d2_2;
-  const Real q0r0_x_2 = q022_2 - (Real(1.0) - q033_2);
+  const Real t1072 = model.c18 * (groundgo_8 * groundggi_2);
+  const Real t1073 = expression_132 * t1072;
+  const Real t1074 = expression_130 * t1072;
+  const Real t1075 = t1073 + t1073;
+  const Real t1076 = t1074 + t1074;
+  const Real t1077 = expression_130 * t1075;
+  const Real t1080 = q0r1_y_2 * t1075;
+  const Real t1083 = q0r0_y_2 * t1076;
+  const Real t1085 = t1080 + ((q0r2_y_2 + q0r2_y_2) * t1072 - t1083);
+  const Real t1089 = expression_132 * t1080 + (q0r2_y_2 * t1075 - q0r0_y_2 * t1077);
+  const Real t1092 = q0r1_y_2 * t1077 + (q0r2_y_2 * t1076 - expression_130 * t1083);
+  const Real t1097 = q0d3_2 * t1092 + q0d1_2 * t1085;
+  const Real t1111 = q0d3_2 * t1089 + Real(2.0) * (t687 * t1085 + (t685 * t1092 + t688 * t1089));
+  const Real t1115 = q0d3_2 * t1085 - q0d1_2 * t1092;
+  const Real t1120 = q0d1_2 * t1089 - (q0d2_2 * t1092 - Real(2.0) * (t685 * t1085 + t686 * t1089));
+  const Real q022_2 = t687 * q0d2_2;
+  const Real q013_2 = t686 * q0d3_2;
+  const Real q002_2 = t685 * q0d2_2;
+  const Real q0r0_x_2 = q033_2 - (Real(1.0) - q022_2);
   const Real q0r0_z_2 = q013_2 + q002_2;
   const Real q0r1_x_2 = q012_2 + q003_2;
   const Real q0r1_z_2 = q023_2 - q001_2;
   const Real q0r2_x_2 = q013_2 - q002_2;
-  const Real q0r2_z_2 = t777 - q022_2;
+  const Real q0r2_z_2 = t699 - q022_2;
   const Real groundggq_x_2 = groundgge_x_2 * groundggi_2;
   const Real groundggq_y_2 = groundgge_y_2 * groundggi_2;
   const Real groundggq_z_2 = groundgge_z_2 * groundggi_2;
@@ -1545,49 +1489,31 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real groundgv_x_2 = model.radius * groundggq_x_2;
   const Real groundgv_y_2 = model.radius * groundggq_y_2;
   const Real groundgv_z_2 = model.radius * groundggq_z_2;
-  const Real grounds1bf0_x_2 = q0r2_x_2 * groundgy_z_2 - (q0r0_x_2 * groundgy_x_2 + q0r1_x_2 * groundgy_y_2);
-  const Real grounds1bf0_y_2 = q0r2_y_2 * groundgy_z_2 + (q0r0_y_2 * groundgy_x_2 + q0r1_y_2 * groundgy_y_2);
-  const Real grounds1bf0_z_2 = q0r2_z_2 * groundgy_z_2 + (q0r0_z_2 * groundgy_x_2 - q0r1_z_2 * groundgy_y_2);
-  const Real t1244 = groundgy_x_2 * groundgv_y_2 + groundgy_y_2 * groundgv_x_2;
-  const Real t1248 = groundgy_x_2 * groundgv_z_2 - groundgy_z_2 * groundgv_x_2;
-  const Real t1252 = groundgy_y_2 * groundgv_z_2 + groundgy_z_2 * groundgv_y_2;
-  const Real grounds1bn0_x_2 = q0r0_x_2 * t1252 + (q0r2_x_2 * t1244 - q0r1_x_2 * t1248);
-  const Real grounds1bn0_y_2 = q0r0_y_2 * t1252 - (q0r2_y_2 * t1244 + q0r1_y_2 * t1248);
-  const Real grounds1bn0_z_2 = q0r0_z_2 * t1252 - (q0r2_z_2 * t1244 - q0r1_z_2 * t1248);
-  const Real grounds1bf_x_2 = q0r0_z_2 * grounds1bf0_z_2 - (q0r0_x_2 * grounds1bf0_x_2 - q0r0_y_2 *
-      grounds1bf0_y_2);
-  const Real grounds1bf_y_2 = q0r1_z_2 * grounds1bf0_z_2 + (q0r1_x_2 * grounds1bf0_x_2 - q0r1_y_2 *
-      grounds1bf0_y_2);
-  const Real grounds1bf_z_2 = q0r2_z_2 * grounds1bf0_z_2 + (q0r2_x_2 * grounds1bf0_x_2 + q0r2_y_2 *
-      grounds1bf0_y_2);
+  const Real t1154 = groundgy_x_2 * groundgv_y_2 + groundgy_y_2 * groundgv_x_2;
+  const Real t1158 = groundgy_x_2 * groundgv_z_2 + groundgy_z_2 * groundgv_x_2;
+  const Real t1162 = groundgy_y_2 * groundgv_z_2 - groundgy_z_2 * groundgv_y_2;
+  const Real grounds1bn0_x_2 = q0r1_x_2 * t1158 + (q0r2_x_2 * t1154 - q0r0_x_2 * t1162);
+  const Real grounds1bn0_y_2 = q0r1_y_2 * t1158 - (q0r2_y_2 * t1154 + q0r0_y_2 * t1162);
+  const Real grounds1bn0_z_2 = q0r1_z_2 * t1158 + (q0r2_z_2 * t1154 + q0r0_z_2 * t1162);
   const Real groundgz_z_2 = expression_132 * groundgo_9;
-  const Real grounds2bf0_x_2 = q0r1_x_2 * groundgo_9 + q0r2_x_2 * groundgz_z_2;
-  const Real grounds2bf0_y_2 = q0r1_y_2 * groundgo_9 - q0r2_y_2 * groundgz_z_2;
-  const Real grounds2bf0_z_2 = q0r1_z_2 * groundgo_9 + q0r2_z_2 * groundgz_z_2;
-  const Real t1293 = groundgo_9 * groundgv_z_2 - groundgv_y_2 * groundgz_z_2;
-  const Real grounds2bn0_x_2 = q0r0_x_2 * t1293 - groundgv_x_2 * (q0r1_x_2 * groundgz_z_2 - q0r2_x_2 *
+  const Real t1179 = groundgo_9 * groundgv_z_2 + groundgv_y_2 * groundgz_z_2;
+  const Real grounds2bn0_x_2 = q0r0_x_2 * t1179 + groundgv_x_2 * (q0r1_x_2 * groundgz_z_2 - q0r2_x_2 *
       groundgo_9);
-  const Real grounds2bn0_y_2 = q0r0_y_2 * t1293 - groundgv_x_2 * (q0r1_y_2 * groundgz_z_2 + q0r2_y_2 *
+  const Real grounds2bn0_y_2 = q0r0_y_2 * t1179 + groundgv_x_2 * (q0r1_y_2 * groundgz_z_2 + q0r2_y_2 *
       groundgo_9);
-  const Real grounds2bn0_z_2 = q0r0_z_2 * t1293 + groundgv_x_2 * (q0r1_z_2 * groundgz_z_2 - q0r2_z_2 *
+  const Real grounds2bn0_z_2 = q0r0_z_2 * t1179 - groundgv_x_2 * (q0r1_z_2 * groundgz_z_2 - q0r2_z_2 *
       groundgo_9);
-  const Real grounds2bf_x_2 = q0r0_z_2 * grounds2bf0_z_2 - (q0r0_x_2 * grounds2bf0_x_2 + q0r0_y_2 *
-      grounds2bf0_y_2);
-  const Real grounds2bf_y_2 = q0r1_z_2 * grounds2bf0_z_2 + (q0r1_x_2 * grounds2bf0_x_2 + q0r1_y_2 *
-      grounds2bf0_y_2);
-  const Real grounds2bf_z_2 = q0r2_z_2 * grounds2bf0_z_2 + (q0r2_x_2 * grounds2bf0_x_2 - q0r2_y_2 *
-      grounds2bf0_y_2);
-  const Real t1341 = (t1140 * t1195 - (t1139 * t1190 + (t1141 * t1172 - t1138 * t1186))) * state.z[5] +
-      ((t1138 * t1195 + (t1141 * t1190 - (t1139 * t1172 + t1140 * t1186))) * state.z[3] + (groundgo_8 *
-      state.z[2] - (expression_130 * groundgo_8 * state.z[0] - expression_132 * groundgo_8 * state.z[1])));
-  const Real t1360 = t645 * t1341 - (grounds1bn0_z_2 * state.z[5] - (grounds1bn0_y_2 * state.z[4] +
-      (grounds1bn0_x_2 * state.z[3] + (grounds1bf_z_2 * state.z[2] + (grounds1bf_x_2 * state.z[0] -
-      grounds1bf_y_2 * state.z[1])))));
-  const Real t1372 = t676 * (t665 * t1360 - (t655 * t1341 + (grounds2bn0_z_2 * state.z[5] - (grounds2bn0_y_2 *
-      state.z[4] + (grounds2bn0_x_2 * state.z[3] - (grounds2bf_z_2 * state.z[2] + (grounds2bf_x_2 * state.z[0]
-      - grounds2bf_y_2 * state.z[1])))))));
-  const Real t1374 = t664 * t1360 - t665 * t1372;
-  const Real t1378 = t655 * t1372 - (t644 * t1341 - t645 * t1374);
+  const Real t1212 = expression_132 * groundgo_8 * state.z[1] - (expression_130 * groundgo_8 * state.z[0] -
+      (groundgo_8 * state.z[2] + ((t1065 * t1111 + (t1064 * t1097 - (t1066 * t1115 + t1063 * t1120))) *
+      state.z[3] - (t1063 * t1111 - (t1066 * t1097 + (t1064 * t1115 - t1065 * t1120))) * state.z[5])));
+  const Real t1230 = groundgy_y_2 * state.z[1] + (groundgy_x_2 * state.z[0] + (groundgy_z_2 * state.z[2] +
+      (grounds1bn0_x_2 * state.z[3] + (grounds1bn0_y_2 * state.z[4] + (grounds1bn0_z_2 * state.z[5] - t572 *
+      t1212)))));
+  const Real t1241 = t600 * (groundgz_z_2 * state.z[2] - (groundgo_9 * state.z[1] - (grounds2bn0_x_2 *
+      state.z[3] + (grounds2bn0_y_2 * state.z[4] - (grounds2bn0_z_2 * state.z[5] + (t583 * t1212 - t590 *
+      t1230))))));
+  const Real t1243 = t589 * t1230 + t590 * t1241;
+  const Real t1247 = t572 * t1243 - (t571 * t1212 - t583 * t1241);
   const Real expression_133 = model.c7 * (expression_58 * expression_61);
   const Real expression_134 = expression_64 * expression_67;
   const Real expression_135 = model.c9 * expression_62;
@@ -1595,33 +1521,33 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real groundggp = groundgs_xx - groundggq_x * groundggq_x;
   const Real groundggp_2 = groundgs_xy - groundggq_x * groundggq_y;
   const Real groundggp_3 = groundgs_yy - groundggq_y * groundggq_y;
-  const Real t1439 = expression_134 * groundggp_2;
-  const Real groundggk = expression_133 * groundggp - t1439;
+  const Real t1306 = expression_134 * groundggp_2;
+  const Real groundggk = expression_133 * groundggp + t1306;
   const Real groundggj = Real(1.0) + groundggl * groundggk;
-  const Real groundggk_2 = expression_134 * groundggp - expression_135 * groundggp_2;
+  const Real groundggk_2 = expression_134 * groundggp + expression_135 * groundggp_2;
   const Real groundggj_2 = groundggl * groundggk_2;
-  const Real groundggk_3 = expression_133 * groundggp_2 - expression_134 * groundggp_3;
+  const Real groundggk_3 = expression_133 * groundggp_2 + expression_134 * groundggp_3;
   const Real groundggj_3 = groundggl * groundggk_3;
-  const Real groundggk_4 = t1439 - expression_135 * groundggp_3;
-  const Real groundggj_4 = Real(1.0) - groundggl * groundggk_4;
-  const Real groundggt = groundggj * groundggj_4 + groundggj_2 * groundggj_3;
-  closed.y[0] = t724;
-  closed.y[1] = t725;
-  closed.y[2] = state.y[2] - t720;
-  closed.y[3] = t763;
-  closed.y[4] = -t764;
-  closed.y[5] = t765;
-  closed.y[6] = -t766;
-  closed.z[0] = state.z[0] - model.c11 * (grounds2bf_x * t1372 + (t406 * t1378 + grounds1bf_x * t1374));
-  closed.z[1] = state.z[1] - model.c11 * (grounds2bf_y * t1372 + (t405 * t1378 + grounds1bf_y * t1374));
-  closed.z[2] = state.z[2] + model.c11 * (grounds2bf_z * t1372 + (groundgo_3 * t1378 + grounds1bf_z * t1374));
-  closed.z[3] = state.z[3] - model.c19 * (grounds2bn0_x * t1372 + (t455 * t1378 + grounds1bn0_x * t1374));
-  closed.z[4] = state.z[4] + model.c13 * (grounds1bn0_y * t1374 + grounds2bn0_y * t1372);
-  closed.z[5] = state.z[5] + model.c19 * (grounds2bn0_z * t1372 - (t459 * t1378 - grounds1bn0_z * t1374));
-  closed.regularity = -(Real(1.0) / (t676 * (t644 * t664)) * Real(0.5333333333333331));
-  closed.opening = detail::where_negative(groundggj + groundggj_4, Real(1.0)) +
-      (detail::where_negative(groundggt, Real(1.0)) + (groundgm_2 * groundgm_2 + (groundgm * groundgm + (t723
-      * t723 + (t722 * t722 + (t721 * t721 + (t720 * t720 + (t718 * t718 + t719 * t719))))))));
+  const Real groundggk_4 = t1306 + expression_135 * groundggp_3;
+  const Real groundggj_4 = Real(1.0) + groundggl * groundggk_4;
+  const Real groundggt = groundggj * groundggj_4 - groundggj_2 * groundggj_3;
+  closed.y[0] = t646;
+  closed.y[1] = t647;
+  closed.y[2] = state.y[2] - t642;
+  closed.y[3] = -t685;
+  closed.y[4] = t686;
+  closed.y[5] = -t687;
+  closed.y[6] = t688;
+  closed.z[0] = state.z[0] - model.c13 * (t408 * t1247 + groundgy_x * t1243);
+  closed.z[1] = state.z[1] - model.c13 * (groundgy_y * t1243 - (t407 * t1247 + groundgo_4 * t1241));
+  closed.z[2] = state.z[2] - model.c13 * (groundgy_z * t1243 - (groundgo_3 * t1247 - groundgz_z * t1241));
+  closed.z[3] = state.z[3] + model.c19 * (grounds1bn0_x * t1243 - (t457 * t1247 - grounds2bn0_x * t1241));
+  closed.z[4] = state.z[4] - model.c12 * (grounds1bn0_y * t1243 - grounds2bn0_y * t1241);
+  closed.z[5] = state.z[5] + model.c19 * (grounds1bn0_z * t1243 + (t461 * t1247 + grounds2bn0_z * t1241));
+  closed.regularity = Real(1.0) / (t600 * (t571 * t589)) * Real(0.5333333333333331);
+  closed.opening = t641 * t641 + (t640 * t640 + (t642 * t642 + (t643 * t643 + (t644 * t644 + (t645 * t645 +
+      (groundgm * groundgm + (groundgm_2 * groundgm_2 + (detail::where_negative(groundggt, Real(1.0)) +
+      detail::where_negative(groundggj + groundggj_4, Real(1.0))))))))));
   state = closed;
 }
 
@@ -1876,40 +1802,28 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real groundgv_x = model.radius * groundggq_x;
   const Real groundgv_y = model.radius * groundggq_y;
   const Real groundgv_z = model.radius * groundggq_z;
-  const Real grounds1bf0_x = q0r2_x * groundgy_z - (q0r0_x * groundgy_x - q0r1_x * groundgy_y);
-  const Real grounds1bf0_y = q0r2_y * groundgy_z + (q0r0_y * groundgy_x - q0r1_y * groundgy_y);
-  const Real grounds1bf0_z = q0r2_z * groundgy_z - (q0r0_z * groundgy_x + q0r1_z * groundgy_y);
-  const Real t459 = groundgy_x * groundgv_y - groundgy_y * groundgv_x;
-  const Real t463 = groundgy_x * groundgv_z - groundgy_z * groundgv_x;
-  const Real t467 = groundgy_y * groundgv_z - groundgy_z * groundgv_y;
-  const Real grounds1bn0_x = q0r0_x * t467 - (q0r2_x * t459 - q0r1_x * t463);
-  const Real grounds1bn0_y = q0r0_y * t467 + (q0r2_y * t459 + q0r1_y * t463);
-  const Real grounds1bn0_z = q0r0_z * t467 - (q0r2_z * t459 + q0r1_z * t463);
-  const Real grounds1bf_x = q0r0_z * grounds1bf0_z + (q0r0_x * grounds1bf0_x - q0r0_y * grounds1bf0_y);
-  const Real grounds1bf_y = q0r1_z * grounds1bf0_z - (q0r1_x * grounds1bf0_x - q0r1_y * grounds1bf0_y);
-  const Real grounds1bf_z = q0r2_z * grounds1bf0_z + (q0r2_x * grounds1bf0_x + q0r2_y * grounds1bf0_y);
+  const Real t444 = groundgy_x * groundgv_y - groundgy_y * groundgv_x;
+  const Real t448 = groundgy_x * groundgv_z - groundgy_z * groundgv_x;
+  const Real t452 = groundgy_y * groundgv_z - groundgy_z * groundgv_y;
+  const Real grounds1bn0_x = q0r0_x * t452 - (q0r2_x * t444 - q0r1_x * t448);
+  const Real grounds1bn0_y = q0r0_y * t452 + (q0r2_y * t444 + q0r1_y * t448);
+  const Real grounds1bn0_z = q0r0_z * t452 - (q0r2_z * t444 + q0r1_z * t448);
   const Real groundgz_z = expression_66 * groundgo_4;
-  const Real grounds2bf0_x = q0r1_x * groundgo_4 - q0r2_x * groundgz_z;
-  const Real grounds2bf0_y = q0r1_y * groundgo_4 + q0r2_y * groundgz_z;
-  const Real grounds2bf0_z = q0r1_z * groundgo_4 + q0r2_z * groundgz_z;
-  const Real t508 = groundgo_4 * groundgv_z + groundgv_y * groundgz_z;
-  const Real grounds2bn0_x = q0r0_x * t508 + groundgv_x * (q0r1_x * groundgz_z + q0r2_x * groundgo_4);
-  const Real grounds2bn0_y = q0r0_y * t508 + groundgv_x * (q0r1_y * groundgz_z - q0r2_y * groundgo_4);
-  const Real grounds2bn0_z = q0r0_z * t508 - groundgv_x * (q0r1_z * groundgz_z - q0r2_z * groundgo_4);
-  const Real grounds2bf_x = q0r0_z * grounds2bf0_z - (q0r0_x * grounds2bf0_x + q0r0_y * grounds2bf0_y);
-  const Real grounds2bf_y = q0r1_z * grounds2bf0_z + (q0r1_x * grounds2bf0_x + q0r1_y * grounds2bf0_y);
-  const Real grounds2bf_z = q0r2_z * grounds2bf0_z - (q0r2_x * grounds2bf0_x - q0r2_y * grounds2bf0_y);
-  const Real t550 = q033 * Real(0.5);
-  const Real t553 = state.y[3] * state.y[3] - Real(0.5) * (q011 + q022);
+  const Real t469 = groundgo_4 * groundgv_z + groundgv_y * groundgz_z;
+  const Real grounds2bn0_x = q0r0_x * t469 + groundgv_x * (q0r1_x * groundgz_z + q0r2_x * groundgo_4);
+  const Real grounds2bn0_y = q0r0_y * t469 + groundgv_x * (q0r1_y * groundgz_z - q0r2_y * groundgo_4);
+  const Real grounds2bn0_z = q0r0_z * t469 - groundgv_x * (q0r1_z * groundgz_z - q0r2_z * groundgo_4);
+  const Real t496 = q033 * Real(0.5);
+  const Real t499 = state.y[3] * state.y[3] - Real(0.5) * (q011 + q022);
   const Real grounds0 = grounds1bn0_z * state.z[5] + (grounds1bn0_y * state.z[4] - (grounds1bn0_x * state.z[3]
-      - (grounds1bf_z * state.z[2] - (grounds1bf_x * state.z[0] + grounds1bf_y * state.z[1]))));
+      - (groundgy_z * state.z[2] + (groundgy_x * state.z[0] + groundgy_y * state.z[1]))));
   const Real grounds1 = grounds2bn0_z * state.z[5] + (grounds2bn0_y * state.z[4] - (grounds2bn0_x * state.z[3]
-      + (grounds2bf_z * state.z[2] - (grounds2bf_x * state.z[0] + grounds2bf_y * state.z[1]))));
+      - (groundgo_4 * state.z[1] - groundgz_z * state.z[2])));
   g[0] = g_ground;
   g[1] = Real(0.0);
   g[2] = Real(0.0);
-  g_rate[0] = state.z[5] * (t415 * q0r1_x + (t414 * q0r2_x + t418 * (t553 + (q011 - t550)))) - (state.z[3] *
-      (t415 * q0r1_z + (t414 * (t550 + t553) + t418 * q0r0_z)) - (groundgo_3 * state.z[2] - (expression_64 *
+  g_rate[0] = state.z[5] * (t415 * q0r1_x + (t414 * q0r2_x + t418 * (t499 + (q011 - t496)))) - (state.z[3] *
+      (t415 * q0r1_z + (t414 * (t496 + t499) + t418 * q0r0_z)) - (groundgo_3 * state.z[2] - (expression_64 *
       groundgo_3 * state.z[0] - expression_66 * groundgo_3 * state.z[1])));
   g_rate[1] = grounds0;
   g_rate[2] = grounds1;
@@ -2143,25 +2057,23 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real groundggi = Real(1.0) / groundggr;
   const Real t397 = Real(0.5) * groundggi;
   const Real t398 = model.radius * groundgo_3;
-  const Real t399 = expression_67 * groundgo_3;
-  const Real t400 = expression_64 * groundgo_3;
-  const Real t401 = t397 * t398;
-  const Real t402 = expression_67 * t401;
-  const Real t403 = expression_64 * t401;
-  const Real t404 = t402 + t402;
-  const Real t406 = t403 + t403;
-  const Real t407 = expression_64 * t404;
-  const Real t408 = expression_64 * t403;
-  const Real t414 = q0r1_y * t404 + (t395 * t401 - q0r0_y * t406);
-  const Real t416 = expression_67 * t414;
-  const Real t419 = q0r1_y * t407 + (q0r2_y * t406 - t393 * t408);
-  const Real t424 = q0d3 * t419 + q0d1 * t414;
-  const Real t433 = state.y[5] * t414 + (state.y[3] * t419 + state.y[6] * t416);
-  const Real t438 = q0d3 * t416 + Real(2.0) * t433;
-  const Real t442 = q0d3 * t414 - q0d1 * t419;
-  const Real t447 = q0d1 * t416 - (q0d2 * t419 - Real(2.0) * (state.y[3] * t414 + state.y[4] * t416));
-  const Real t451 = t391 * t438 + (t390 * t424 - (t392 * t442 + t389 * t447));
-  const Real t455 = t389 * t438 - (t392 * t424 + (t390 * t442 - t391 * t447));
+  const Real t399 = t397 * t398;
+  const Real t400 = expression_67 * t399;
+  const Real t401 = expression_64 * t399;
+  const Real t402 = t400 + t400;
+  const Real t404 = t401 + t401;
+  const Real t405 = expression_64 * t402;
+  const Real t406 = expression_64 * t401;
+  const Real t412 = q0r1_y * t402 + (t395 * t399 - q0r0_y * t404);
+  const Real t414 = expression_67 * t412;
+  const Real t417 = q0r1_y * t405 + (q0r2_y * t404 - t393 * t406);
+  const Real t422 = q0d3 * t417 + q0d1 * t412;
+  const Real t431 = state.y[5] * t412 + (state.y[3] * t417 + state.y[6] * t414);
+  const Real t436 = q0d3 * t414 + Real(2.0) * t431;
+  const Real t440 = q0d3 * t412 - q0d1 * t417;
+  const Real t445 = q0d1 * t414 - (q0d2 * t417 - Real(2.0) * (state.y[3] * t412 + state.y[4] * t414));
+  const Real t449 = t391 * t436 + (t390 * t422 - (t392 * t440 + t389 * t445));
+  const Real t453 = t389 * t436 - (t392 * t422 + (t390 * t440 - t391 * t445));
   const Real q022 = state.y[5] * q0d2;
   const Real q013 = state.y[4] * q0d3;
   const Real q002 = q0d2 * state.y[3];
@@ -2177,85 +2089,66 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real groundgo_4 = Real(1.0) / detail::square_root(groundgo);
   const Real groundgo_5 = groundgo_3 * groundgo_4;
   const Real groundgy_x = groundgo * groundgo_5;
-  const Real t473 = expression_64 * expression_67;
-  const Real groundgy_y = groundgo_5 * t473;
+  const Real t471 = expression_64 * expression_67;
+  const Real groundgy_y = groundgo_5 * t471;
   const Real groundgy_z = expression_64 * groundgo_5;
   const Real groundgv_x = model.radius * groundggq_x;
   const Real groundgv_y = model.radius * groundggq_y;
   const Real groundgv_z = model.radius * groundggq_z;
-  const Real grounds1bf0_x = q0r1_x * groundgy_y - (q0r0_x * groundgy_x + q0r2_x * groundgy_z);
-  const Real grounds1bf0_y = q0r1_y * groundgy_y + (q0r0_y * groundgy_x + q0r2_y * groundgy_z);
-  const Real grounds1bf0_z = q0r1_z * groundgy_y - (q0r0_z * groundgy_x - q0r2_z * groundgy_z);
-  const Real t496 = groundgy_x * groundgv_y + groundgy_y * groundgv_x;
-  const Real t500 = groundgy_x * groundgv_z + groundgy_z * groundgv_x;
-  const Real t504 = groundgy_y * groundgv_z - groundgy_z * groundgv_y;
-  const Real grounds1bn0_x = q0r1_x * t500 + (q0r2_x * t496 + q0r0_x * t504);
-  const Real grounds1bn0_y = q0r1_y * t500 - (q0r2_y * t496 + q0r0_y * t504);
-  const Real grounds1bn0_z = q0r1_z * t500 - (q0r2_z * t496 - q0r0_z * t504);
-  const Real grounds1bf_x = q0r0_y * grounds1bf0_y - (q0r0_x * grounds1bf0_x + q0r0_z * grounds1bf0_z);
-  const Real grounds1bf_y = q0r1_y * grounds1bf0_y + (q0r1_x * grounds1bf0_x + q0r1_z * grounds1bf0_z);
-  const Real grounds1bf_z = q0r2_y * grounds1bf0_y - (q0r2_x * grounds1bf0_x - q0r2_z * grounds1bf0_z);
+  const Real t479 = groundgy_x * groundgv_y + groundgy_y * groundgv_x;
+  const Real t483 = groundgy_x * groundgv_z + groundgy_z * groundgv_x;
+  const Real t487 = groundgy_y * groundgv_z - groundgy_z * groundgv_y;
+  const Real grounds1bn0_x = q0r1_x * t483 + (q0r2_x * t479 + q0r0_x * t487);
+  const Real grounds1bn0_y = q0r1_y * t483 - (q0r2_y * t479 + q0r0_y * t487);
+  const Real grounds1bn0_z = q0r1_z * t483 - (q0r2_z * t479 - q0r0_z * t487);
   const Real groundgz_z = expression_67 * groundgo_4;
-  const Real grounds2bf0_x = q0r1_x * groundgo_4 + q0r2_x * groundgz_z;
-  const Real grounds2bf0_y = q0r1_y * groundgo_4 - q0r2_y * groundgz_z;
-  const Real grounds2bf0_z = q0r1_z * groundgo_4 - q0r2_z * groundgz_z;
-  const Real t545 = groundgo_4 * groundgv_z + groundgv_y * groundgz_z;
-  const Real t549 = q0r1_x * groundgz_z - q0r2_x * groundgo_4;
-  const Real grounds2bn0_x = q0r0_x * t545 - groundgv_x * t549;
-  const Real t555 = q0r1_y * groundgz_z + q0r2_y * groundgo_4;
-  const Real grounds2bn0_y = q0r0_y * t545 + groundgv_x * t555;
-  const Real t561 = q0r1_z * groundgz_z + q0r2_z * groundgo_4;
-  const Real grounds2bn0_z = q0r0_z * t545 - groundgv_x * t561;
-  const Real grounds2bf_x = q0r0_y * grounds2bf0_y - (q0r0_x * grounds2bf0_x + q0r0_z * grounds2bf0_z);
-  const Real grounds2bf_y = q0r1_y * grounds2bf0_y + (q0r1_x * grounds2bf0_x + q0r1_z * grounds2bf0_z);
-  const Real grounds2bf_z = q0r2_y * grounds2bf0_y - (q0r2_x * grounds2bf0_x - q0r2_z * grounds2bf0_z);
-  const Real t585 = groundgo_3 * groundgo_3;
-  const Real t589 = grounds1bf_x * model.c11;
-  const Real t590 = grounds1bf_y * model.c11;
-  const Real t591 = grounds1bf_z * model.c11;
-  const Real t593 = grounds1bn0_x * model.c12;
-  const Real t594 = grounds1bn0_z * model.c12;
-  const Real t603 = t399 * t590 - (t400 * t589 - (groundgo_3 * t591 + (t451 * t593 - t455 * t594)));
-  const Real t612 = grounds2bf_x * model.c11;
-  const Real t613 = grounds2bf_y * model.c11;
-  const Real t614 = grounds2bf_z * model.c11;
-  const Real t615 = grounds2bn0_x * model.c12;
-  const Real t616 = grounds2bn0_y * model.c13;
-  const Real t617 = grounds2bn0_z * model.c12;
-  const Real t626 = t399 * t613 - (t400 * t612 - (groundgo_3 * t614 + (t451 * t615 - t455 * t617)));
-  const Real t646 = Real(1.0) / (model.c11 * (groundgo_2 * t585) + model.c12 * (t451 * t451 + t455 * t455) +
+  const Real t504 = groundgo_4 * groundgv_z + groundgv_y * groundgz_z;
+  const Real t508 = q0r1_x * groundgz_z - q0r2_x * groundgo_4;
+  const Real grounds2bn0_x = q0r0_x * t504 - groundgv_x * t508;
+  const Real t514 = q0r1_y * groundgz_z + q0r2_y * groundgo_4;
+  const Real grounds2bn0_y = q0r0_y * t504 + groundgv_x * t514;
+  const Real t520 = q0r1_z * groundgz_z + q0r2_z * groundgo_4;
+  const Real grounds2bn0_z = q0r0_z * t504 - groundgv_x * t520;
+  const Real t529 = groundgo_3 * groundgo_3;
+  const Real t533 = grounds1bn0_x * model.c11;
+  const Real t534 = grounds1bn0_z * model.c11;
+  const Real t537 = t449 * t533 - t453 * t534;
+  const Real t546 = grounds2bn0_x * model.c11;
+  const Real t547 = grounds2bn0_y * model.c12;
+  const Real t548 = grounds2bn0_z * model.c11;
+  const Real t551 = t449 * t546 - t453 * t548;
+  const Real t555 = groundgo_4 * groundgo_4;
+  const Real t567 = Real(1.0) / (groundgo_2 * t529 * model.c13 + model.c11 * (t449 * t449 + t453 * t453) +
       Real(4.9999999999999995e-11));
-  const Real t647 = t603 * t646;
-  const Real t657 = t626 * t646;
-  const Real t664 = grounds1bf_y * t613 + (grounds1bf_x * t612 + (grounds1bf_z * t614 + (grounds1bn0_x * t615
-      - (grounds1bn0_y * t616 - (grounds1bn0_z * t617 - t603 * t657)))));
-  const Real t666 = Real(1.0) / (grounds1bf_y * t590 + (grounds1bf_x * t589 + (grounds1bf_z * t591 +
-      (grounds1bn0_x * t593 + (grounds1bn0_y * grounds1bn0_y * model.c13 + (grounds1bn0_z * t594 - t603 *
-      t647))))) + Real(1.5000000000000002e-10));
-  const Real t667 = t664 * t666;
-  const Real t678 = Real(1.0) / (grounds2bf_y * t613 + (grounds2bf_x * t612 + (grounds2bf_z * t614 +
-      (grounds2bn0_x * t615 + (grounds2bn0_y * t616 + (grounds2bn0_z * t617 - (t626 * t657 + t664 * t667))))))
-      + Real(2.5e-10));
-  const Real t683 = t391 * state.z[4] + (t390 * state.z[3] + t392 * state.z[5]);
-  const Real t688 = t392 * state.z[4] - (t389 * state.z[3] + t391 * state.z[5]);
-  const Real t693 = t389 * state.z[4] + (t392 * state.z[3] - t390 * state.z[5]);
-  const Real t698 = t390 * state.z[4] - (t391 * state.z[3] - t389 * state.z[5]);
-  const Real t699 = expression_58 * expression_61;
-  const Real expression_68 = model.c7 * t699;
+  const Real t568 = t537 * t567;
+  const Real t579 = t551 * t567;
+  const Real t583 = grounds1bn0_y * t547 - (grounds1bn0_x * t546 + (grounds1bn0_z * t548 - t537 * t579));
+  const Real t585 = Real(1.0) / (grounds1bn0_y * grounds1bn0_y * model.c12 + (grounds1bn0_x * t533 +
+      (grounds1bn0_z * t534 - (t537 * t568 - model.c13 * (groundgy_y * groundgy_y + (groundgy_x * groundgy_x +
+      groundgy_z * groundgy_z))))) + Real(1.5000000000000002e-10));
+  const Real t586 = t583 * t585;
+  const Real t597 = Real(1.0) / (model.c13 * (groundgo * t555) + (grounds2bn0_x * t546 + (grounds2bn0_y * t547
+      + (grounds2bn0_z * t548 - (t551 * t579 + t583 * t586)))) + Real(2.5e-10));
+  const Real t602 = t391 * state.z[4] + (t390 * state.z[3] + t392 * state.z[5]);
+  const Real t607 = t392 * state.z[4] - (t389 * state.z[3] + t391 * state.z[5]);
+  const Real t612 = t389 * state.z[4] + (t392 * state.z[3] - t390 * state.z[5]);
+  const Real t617 = t390 * state.z[4] - (t391 * state.z[3] - t389 * state.z[5]);
+  const Real t618 = expression_58 * expression_61;
+  const Real expression_68 = model.c7 * t618;
   const Real expression_69 = expression_63 * expression_66;
   const Real expression_70 = model.c9 * (expression_59 * expression_61);
   const Real groundggl = model.radius * groundggi;
   const Real groundggp = groundgs_xx - groundggq_x * groundggq_x;
   const Real groundggp_2 = groundgs_xy - groundggq_x * groundggq_y;
   const Real groundggp_3 = groundgs_yy - groundggq_y * groundggq_y;
-  const Real t712 = expression_69 * groundggp_2;
-  const Real groundggk = expression_68 * groundggp - t712;
+  const Real t631 = expression_69 * groundggp_2;
+  const Real groundggk = expression_68 * groundggp - t631;
   const Real groundggj = Real(1.0) - groundggl * groundggk;
   const Real groundggk_2 = expression_69 * groundggp - expression_70 * groundggp_2;
   const Real groundggj_2 = groundggl * groundggk_2;
   const Real groundggk_3 = expression_68 * groundggp_2 - expression_69 * groundggp_3;
   const Real groundggj_3 = groundggl * groundggk_3;
-  const Real groundggk_4 = t712 - expression_70 * groundggp_3;
+  const Real groundggk_4 = t631 - expression_70 * groundggp_3;
   const Real groundggj_4 = Real(1.0) + groundggl * groundggk_4;
   const Real groundggt = groundggj * groundggj_4 + groundggj_2 * groundggj_3;
   const Real groundggd = Real(1.0) / groundggt;
@@ -2263,160 +2156,143 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real groundgga_2 = groundggj_2 * groundggd;
   const Real groundgga_3 = groundggj_3 * groundggd;
   const Real groundgga_4 = groundggj * groundggd;
-  const Real t736 = groundggi * groundggi;
-  const Real t737 = Real(2.0) * t688;
-  const Real t739 = state.y[4] * t737;
-  const Real t740 = Real(2.0) * t739;
-  const Real t742 = Real(2.0) * t693;
-  const Real t745 = q0d2 * t688 - state.y[4] * t742;
-  const Real t746 = Real(2.0) * t698;
-  const Real t747 = q0d3 * t746;
-  const Real t749 = q0d3 * t693 + state.y[5] * t746;
-  const Real t752 = state.y[3] * t737 + q0d1 * t683;
-  const Real t754 = state.y[3] * t746 - q0d3 * t683;
-  const Real t755 = t749 - t752;
-  const Real t756 = t745 + t754;
-  const Real t760 = t740 - t747;
-  const Real t762 = q0r1_y * t756 + q0r0_y * t760;
-  const Real t766 = q0r2_y * t756 - q0r0_y * t755;
-  const Real t768 = q0r2_y * t760 - q0r1_y * t755;
-  const Real t776 = t766 - expression_64 * (t393 * t756);
-  const Real t777 = expression_67 * t762 + t776;
-  const Real t780 = t768 + expression_67 * ((q0r1_y + q0r1_y) * t760);
-  const Real t781 = expression_64 * t762 - t780;
-  const Real t785 = expression_64 * t766 + (t395 * t755 - expression_67 * t768);
-  const Real t787 = t785 + (expression_64 * t777 + expression_67 * t781);
-  const Real t788 = t397 * t787;
-  const Real t789 = t736 * t788;
-  const Real t794 = state.z[1] - model.radius * (groundggi * t781 - groundgge_y * t789);
-  const Real t797 = state.z[0] - model.radius * (groundggi * t777 - groundgge_x * t789);
-  const Real t803 = groundgga_3 * t797 + groundgga_4 * t794;
-  const Real t807 = groundgo_4 * groundgo_4;
-  const Real t808 = state.y[3] * t688;
-  const Real t812 = t391 * t737;
-  const Real t815 = t391 * t742;
-  const Real t817 = t815 * Real(4.0);
-  const Real t821 = t389 * t746;
-  const Real t822 = t391 * t746;
-  const Real t824 = q0d3 * t688 - state.y[4] * t746;
-  const Real t828 = state.y[3] * t742 - q0d2 * t683;
-  const Real t829 = t749 + t752;
-  const Real t830 = t745 - t754;
-  const Real t854 = model.wave * (groundgga * t797 - groundgga_2 * t794);
-  const Real t861 = expression_69 * t803 - model.c6 * (t699 * t854);
-  const Real t872 = model.hill * (expression_66 * (expression_62 * t854)) - expression_70 * t803;
-  const Real t877 = (expression_67 + expression_67) * t872;
-  const Real t881 = expression_67 * t861 + expression_64 * t872;
-  const Real t884 = groundgs_xx * t861 + (t777 + groundgs_xy * t872);
-  const Real t886 = groundggi * t884;
-  const Real t888 = groundgs_xy * t861 + (t781 + groundgs_yy * t872);
-  const Real t890 = groundggi * t888;
-  const Real t892 = groundgs_xz * t861 + (t785 - groundgs_yz * t872);
-  const Real t893 = groundggi * t892;
-  const Real t898 = t397 * (t892 + (groundgge_x * t861 + (expression_64 * t884 + (groundgge_y * t872 +
-      expression_67 * t888))));
-  const Real t900 = t736 * t898;
-  const Real t901 = groundgz_z * t872;
-  const Real t906 = Real(0.5) * (t585 * (groundgo_3 * ((expression_64 + expression_64) * t861 + t877)));
-  const Real t928 = q0r1_z * state.z[1] - (q0r2_z * state.z[2] - q0r0_z * state.z[0]);
-  const Real t931 = q0r1_y * state.z[1] - (q0r2_y * state.z[2] + q0r0_y * state.z[0]);
-  const Real t936 = q0r1_x * state.z[1] + (q0r2_x * state.z[2] + q0r0_x * state.z[0]);
-  const Real t937 = groundgv_x * state.z[5];
-  const Real t943 = grounds2bf0_z * state.z[0] + t545 * state.z[5];
-  const Real t945 = groundgv_x * state.z[4];
-  const Real t950 = groundgv_x * state.z[3];
-  const Real t961 = grounds2bf0_x * state.z[0] + t545 * state.z[3];
-  const Real t964 = q0r0_y * state.z[4] + (q0r0_z * state.z[5] + q0r0_x * state.z[3]);
-  const Real t970 = groundgo_4 * t937 + (grounds2bf0_z * state.z[2] + groundgz_z * t928);
-  const Real t980 = groundgo_4 * t950 + (grounds2bf0_x * state.z[2] + groundgz_z * t936);
-  const Real t987 = q0r1_y * t945 - (q0r1_z * t937 + (q0r1_x * t950 - (groundgv_y * t964 - (q0r2_z * t928 +
-      (q0r2_y * t931 - q0r2_x * t936)))));
-  const Real t995 = q0r1_x * t936 + (q0r1_y * t931 + (groundgv_z * t964 + q0r1_z * t928));
-  const Real t997 = q0r2_y * t945 - (q0r2_z * t937 - q0r2_x * t950);
-  const Real t1023 = q0r1_y * state.z[4] - (q0r1_z * state.z[5] + q0r1_x * state.z[3]);
-  const Real t1031 = q0r2_y * state.z[4] - (q0r2_z * state.z[5] - q0r2_x * state.z[3]);
-  const Real t1039 = t496 * state.z[5] + (grounds1bf0_z * state.z[2] - groundgy_z * t928);
-  const Real t1045 = t504 * state.z[5] + (grounds1bf0_z * state.z[0] - groundgy_x * t928);
-  const Real t1050 = t496 * state.z[3] + (grounds1bf0_x * state.z[2] - groundgy_z * t936);
-  const Real t1054 = t995 + t997;
-  const Real t1057 = t504 * state.z[3] + (grounds1bf0_x * state.z[0] - groundgy_x * t936);
-  const Real t1062 = groundgv_y * t1031 - (groundgv_z * t1023 + (q0r0_z * t928 - (q0r0_y * t931 - q0r0_x *
-      t936)));
-  const Real t1063 = model.radius * (groundgy_y * t964 - groundgy_x * t1023);
-  const Real t1064 = model.radius * (groundgo_4 * t964);
-  const Real t1065 = model.radius * (groundgy_z * t964 - groundgy_x * t1031);
-  const Real t1066 = expression_67 * t1064;
-  const Real t1067 = model.radius * (groundgy_z * t1023 - groundgy_y * t1031);
-  const Real t1068 = model.radius * (t561 * state.z[5] + (t549 * state.z[3] - t555 * state.z[4]));
-  const Real t1076 = t473 * t1054 - (expression_64 * t987 - groundgo * t1062);
-  const Real t1122 = t419 * state.z[5];
-  const Real t1123 = t419 * state.z[4];
-  const Real t1124 = t419 * state.z[3];
-  const Real t1125 = t416 * state.z[5];
-  const Real t1126 = t416 * state.z[4];
-  const Real t1127 = t416 * state.z[3];
-  const Real t1128 = t414 * state.z[5];
-  const Real t1129 = t414 * state.z[4];
-  const Real t1130 = t414 * state.z[3];
-  const Real t1139 = t1124 - t1128;
-  const Real t1143 = t1122 - t1130;
-  const Real t1145 = t1125 + t1129;
-  const Real t1148 = t1126 - (t1124 + t1128);
-  const Real t1149 = t1123 + t1127;
-  const Real t1166 = state.y[3] * (t1122 + t1130);
-  const Real t1168 = t1125 - t1129;
-  const Real t1173 = t1126 + t1128;
-  const Real t1174 = t1124 + t1126;
-  const Real t1177 = t1123 - t1127;
+  const Real t655 = groundggi * groundggi;
+  const Real t656 = Real(2.0) * t607;
+  const Real t658 = state.y[4] * t656;
+  const Real t659 = Real(2.0) * t658;
+  const Real t661 = Real(2.0) * t612;
+  const Real t664 = q0d2 * t607 - state.y[4] * t661;
+  const Real t665 = Real(2.0) * t617;
+  const Real t666 = q0d3 * t665;
+  const Real t668 = q0d3 * t612 + state.y[5] * t665;
+  const Real t671 = state.y[3] * t656 + q0d1 * t602;
+  const Real t673 = state.y[3] * t665 - q0d3 * t602;
+  const Real t674 = t668 - t671;
+  const Real t675 = t664 + t673;
+  const Real t679 = t659 - t666;
+  const Real t681 = q0r1_y * t675 + q0r0_y * t679;
+  const Real t685 = q0r2_y * t675 - q0r0_y * t674;
+  const Real t687 = q0r2_y * t679 - q0r1_y * t674;
+  const Real t694 = expression_67 * t687;
+  const Real t695 = t685 - expression_64 * (t393 * t675);
+  const Real t696 = expression_67 * t681 + t695;
+  const Real t699 = t687 + expression_67 * ((q0r1_y + q0r1_y) * t679);
+  const Real t700 = expression_64 * t681 - t699;
+  const Real t707 = t395 * t674 + expression_64 * t685;
+  const Real t710 = t707 + (expression_67 * t700 - (t694 - expression_64 * t696));
+  const Real t714 = state.z[0] - model.radius * (groundggi * t696 - t397 * (groundgge_x * t655) * t710);
+  const Real t718 = state.z[1] - model.radius * (groundggi * t700 - t397 * (groundgge_y * t655) * t710);
+  const Real t724 = groundgga_3 * t714 + groundgga_4 * t718;
+  const Real t728 = state.y[3] * t607;
+  const Real t732 = t391 * t656;
+  const Real t735 = t391 * t661;
+  const Real t737 = t735 * Real(4.0);
+  const Real t741 = t389 * t665;
+  const Real t742 = t391 * t665;
+  const Real t744 = q0d3 * t607 - state.y[4] * t665;
+  const Real t748 = state.y[3] * t661 - q0d2 * t602;
+  const Real t749 = t668 + t671;
+  const Real t750 = t664 - t673;
+  const Real t763 = model.wave * (groundgga * t714 - groundgga_2 * t718);
+  const Real t770 = expression_69 * t724 - model.c6 * (t618 * t763);
+  const Real t781 = model.hill * (expression_66 * (expression_62 * t763)) - expression_70 * t724;
+  const Real t786 = (expression_67 + expression_67) * t781;
+  const Real t790 = expression_67 * t770 + expression_64 * t781;
+  const Real t793 = groundgs_xx * t770 + (t696 + groundgs_xy * t781);
+  const Real t795 = groundggi * t793;
+  const Real t797 = groundgs_xy * t770 + (t700 + groundgs_yy * t781);
+  const Real t799 = groundggi * t797;
+  const Real t802 = groundgs_xz * t770 + (t707 - (t694 + groundgs_yz * t781));
+  const Real t803 = groundggi * t802;
+  const Real t808 = t397 * (t802 + (groundgge_x * t770 + (expression_64 * t793 + (groundgge_y * t781 +
+      expression_67 * t797))));
+  const Real t810 = t655 * t808;
+  const Real t811 = groundgz_z * t781;
+  const Real t816 = Real(0.5) * (t529 * (groundgo_3 * ((expression_64 + expression_64) * t770 + t786)));
+  const Real t823 = groundgv_x * state.z[5];
+  const Real t824 = groundgo_4 * t823;
+  const Real t828 = t504 * state.z[5];
+  const Real t830 = groundgv_x * state.z[4];
+  const Real t835 = groundgv_x * state.z[3];
+  const Real t836 = groundgo_4 * t835;
+  const Real t845 = t504 * state.z[3];
+  const Real t848 = q0r0_y * state.z[4] + (q0r0_z * state.z[5] + q0r0_x * state.z[3]);
+  const Real t853 = q0r1_z * t823 - (state.z[2] + (q0r1_y * t830 - (q0r1_x * t835 - groundgv_y * t848)));
+  const Real t860 = q0r2_z * t823 - (state.z[1] + (q0r2_y * t830 + (q0r2_x * t835 + groundgv_z * t848)));
+  const Real t863 = t487 * state.z[5];
+  const Real t866 = t479 * state.z[5];
+  const Real t870 = t487 * state.z[3];
+  const Real t876 = q0r1_y * state.z[4] - (q0r1_z * state.z[5] + q0r1_x * state.z[3]);
+  const Real t881 = t479 * state.z[3];
+  const Real t884 = q0r2_y * state.z[4] - (q0r2_z * state.z[5] - q0r2_x * state.z[3]);
+  const Real t889 = groundgv_z * t876 + (state.z[0] - groundgv_y * t884);
+  const Real t892 = model.radius * (groundgy_y * t848 - groundgy_x * t876);
+  const Real t893 = model.radius * (groundgo_4 * t848);
+  const Real t894 = model.radius * (groundgy_z * t848 - groundgy_x * t884);
+  const Real t895 = expression_67 * t893;
+  const Real t896 = model.radius * (groundgy_z * t876 - groundgy_y * t884);
+  const Real t897 = model.radius * (t520 * state.z[5] + (t508 * state.z[3] - t514 * state.z[4]));
+  const Real t905 = t471 * t860 - (expression_64 * t853 - groundgo * t889);
+  const Real t951 = t417 * state.z[5];
+  const Real t952 = t417 * state.z[4];
+  const Real t953 = t417 * state.z[3];
+  const Real t954 = t414 * state.z[5];
+  const Real t955 = t414 * state.z[4];
+  const Real t956 = t414 * state.z[3];
+  const Real t957 = t412 * state.z[5];
+  const Real t958 = t412 * state.z[4];
+  const Real t959 = t412 * state.z[3];
+  const Real t969 = t953 - t957;
+  const Real t973 = t951 - t959;
+  const Real t975 = t954 + t958;
+  const Real t978 = t955 - (t953 + t957);
+  const Real t979 = t952 + t956;
+  const Real t996 = state.y[3] * (t951 + t959);
+  const Real t998 = t954 - t958;
+  const Real t1003 = t955 + t957;
+  const Real t1004 = t953 + t955;
+  const Real t1007 = t952 - t956;
   const Real rww00 = state.z[4] * state.z[5];
   const Real rww02 = state.z[3] * state.z[4];
-  const Real t1213 = rww00 * model.c20;
-  const Real t1214 = rww02 * model.c20;
-  const Real t1225 = state.y[4] * t688 + t815;
-  const Real t1290 = Real(0.5) * (t693 * (q0d2 * t1122 + (q0d3 * t1149 - (q0d1 * t1168 - Real(2.0) *
-      (state.y[6] * t1127 + (state.y[5] * t1130 + (state.y[3] * t1139 - state.y[4] * t1125)))))) - (t698 *
-      (q0d2 * t1123 - (q0d3 * t1143 + (q0d1 * t1173 + Real(2.0) * (state.y[3] * t1129 + state.y[4] * t1174))))
-      - (t688 * (q0d3 * t1148 - (q0d1 * t1130 - Real(2.0) * (state.y[4] * t1122 + t433 * state.z[4]))) - t683
-      * (q0d2 * t1124 - (q0d3 * t1145 + (q0d1 * t1127 + Real(2.0) * (state.y[6] * t1125 + (state.y[5] * t1128
-      + (t1166 - state.y[4] * t1177)))))))) + t828 * t1139) - (Real(2.0) * (t760 * (expression_67 * t402 *
-      t760) + (t755 * (t401 * t755) + t756 * (t408 * t756))) + (state.z[2] * t906 + (state.z[0] * (groundgo_3
-      * t861 - expression_64 * t906) + (state.z[1] * (groundgo_3 * t872 - expression_67 * t906) +
-      (model.radius * (t788 * t906) - (t822 * t1149 - (t821 * t1145 - (t392 * t746 * t1143 + (t683 * t1166 -
-      (t808 * t1177 - (t812 * t1168 - (groundggi * t397 * t898 * (t398 * t787) - (groundgo_3 * model.c15 +
-      (t451 * t1213 + (t455 * t1214 + (t762 * (t401 * t881) - (t755 * (t406 * t756 - t404 * t760) + (t1130 *
-      (t739 - t1225) + (t1129 * (state.y[4] * t693 + state.y[6] * t683) - (t760 * (t407 * t756 + t404 * t755)
-      + (t1127 * (t808 + t822) + (t1125 * (t812 - t821) + (t756 * (t407 * t760 - t406 * t755) + (t1122 * t1225
-      - (t1123 * (t392 * t742 - state.y[4] * t683) + (t401 * t872 * (t780 - t781) - (t401 * t861 * (t776 +
-      t777) - (state.y[6] * t688 * (t1173 + t1174) + state.y[4] * t698 * (t1126 +
-      t1148)))))))))))))))))))))))))))));
-  const Real t1321 = state.z[1] * (grounds1bf0_y * t760) + (state.z[2] * (grounds1bf0_y * t755) - (state.z[0]
-      * (grounds1bf0_y * t756) + (groundgo_5 * t861 * t987 - (t881 * (groundgo_5 * t1054) + (groundgo_5 * t877
-      * t1062 - (groundgo_4 * t906 * t1076 + (t901 * (t807 * (groundgo_3 * t1076)) - (t893 * t1063 - (t890 *
-      t1065 + (t886 * t1067 - (t900 * (groundgge_y * t1065 - (groundgge_z * t1063 - groundgge_x * t1067)) -
-      (t740 * t1039 + (t829 * (t500 * state.z[5] + (grounds1bf0_z * state.z[1] + groundgy_y * t928)) - (t830 *
-      (t500 * state.z[3] + (grounds1bf0_x * state.z[1] + groundgy_y * t936)) + (t747 * t1057 - (t828 * (t1045
-      - t1050) - (t824 * (t1045 + t1050) + (t817 * (t1039 + t1057) - (grounds1bf_z * model.c15 +
-      (grounds1bn0_x * t1213 - (grounds1bn0_z * t1214 + (t647 * t1290 - (state.z[4] * (t500 * t760 - (t504 *
-      t756 - t496 * t755)) + t931 * (groundgy_z * t755 - (groundgy_x * t756 + groundgy_y *
-      t760)))))))))))))))))))))))));
-  const Real t1353 = t678 * (state.z[1] * (grounds2bf0_y * t760) + (state.z[2] * (grounds2bf0_y * t755) -
-      (state.z[0] * (grounds2bf0_y * t756) - (state.z[4] * (t545 * t756) + (groundgo_4 * t872 * t987 - (t901 *
-      (t807 * (t997 + (expression_67 * t987 + t995))) - (t893 * t1064 + (t890 * t1066 - (t886 * t1068 + (t900
-      * (groundgge_y * t1066 + (groundgge_z * t1064 - groundgge_x * t1068)) + (t740 * t970 - (t829 *
-      (groundgz_z * t937 - (grounds2bf0_z * state.z[1] + groundgo_4 * t928)) - (t830 * (groundgz_z * t950 -
-      (grounds2bf0_x * state.z[1] + groundgo_4 * t936)) - (t747 * t961 - (t828 * (t943 - t980) - (t824 * (t943
-      + t980) + (t817 * (t961 + t970) - (grounds2bf_z * model.c15 + (grounds2bn0_x * t1213 - (grounds2bn0_z *
-      t1214 + (t657 * t1290 - (t667 * t1321 - (t931 * (groundgo_4 * t760 + groundgz_z * t755) + t945 *
-      (groundgz_z * t760 - groundgo_4 * t755))))))))))))))))))))))));
-  const Real t1355 = t666 * t1321 - t667 * t1353;
-  const Real t1359 = t647 * t1355 + (t646 * t1290 + t657 * t1353);
-  const Real t1360 = Real(4.9999999999999995e-11) * t1359;
-  const Real t1364 = Real(1.5000000000000002e-10) * t1355 + t647 * t1360;
-  const Real t1371 = t678 * (t657 * t1360 + (Real(2.5e-10) * t1353 - t667 * t1364));
-  const Real t1373 = t666 * t1364 - t667 * t1371;
-  lambda[0] = -(t646 * t1360 + (t1359 + (t647 * t1373 + t657 * t1371)));
-  lambda[1] = t1355 + t1373;
-  lambda[2] = -(t1353 + t1371);
+  const Real t1043 = rww00 * model.c20;
+  const Real t1044 = rww02 * model.c20;
+  const Real t1055 = state.y[4] * t607 + t735;
+  const Real t1120 = Real(0.5) * (t612 * (q0d2 * t951 + (q0d3 * t979 - (q0d1 * t998 - Real(2.0) * (state.y[6]
+      * t956 + (state.y[5] * t959 + (state.y[3] * t969 - state.y[4] * t954)))))) - (t617 * (q0d2 * t952 -
+      (q0d3 * t973 + (q0d1 * t1003 + Real(2.0) * (state.y[3] * t958 + state.y[4] * t1004)))) - (t607 * (q0d3 *
+      t978 - (q0d1 * t959 - Real(2.0) * (state.y[4] * t951 + t431 * state.z[4]))) - t602 * (q0d2 * t953 -
+      (q0d3 * t975 + (q0d1 * t956 + Real(2.0) * (state.y[6] * t954 + (state.y[5] * t957 + (t996 - state.y[4] *
+      t1007)))))))) + t748 * t969) - (Real(2.0) * (t679 * (expression_67 * t400 * t679) + (t674 * (t399 *
+      t674) + t675 * (t406 * t675))) + (state.z[2] * t816 + (state.z[0] * (groundgo_3 * t770 - expression_64 *
+      t816) + (state.z[1] * (groundgo_3 * t781 - expression_67 * t816) + (model.radius * (t816 * (t397 *
+      t710)) - (t742 * t979 - (t741 * t975 - (t392 * t665 * t973 + (t602 * t996 - (t728 * t1007 - (t732 * t998
+      - (groundggi * t397 * t808 * (t398 * t710) - (groundgo_3 * model.c15 + (t449 * t1043 + (t453 * t1044 +
+      (t681 * (t399 * t790) - (t674 * (t404 * t675 - t402 * t679) + (t959 * (t658 - t1055) + (t958 *
+      (state.y[4] * t612 + state.y[6] * t602) - (t679 * (t405 * t675 + t402 * t674) + (t956 * (t728 + t742) +
+      (t954 * (t732 - t741) + (t675 * (t405 * t679 - t404 * t674) + (t951 * t1055 - (t952 * (t392 * t661 -
+      state.y[4] * t602) + (t399 * t781 * (t699 - t700) - (t399 * t770 * (t695 + t696) - (state.y[6] * t607 *
+      (t1003 + t1004) + state.y[4] * t617 * (t955 + t978)))))))))))))))))))))))))))));
+  const Real t1144 = t790 * (groundgo_5 * t860) - (groundgo_5 * t770 * t853 - (groundgo_5 * t786 * t889 -
+      (groundgo_4 * t816 * t905 + (t811 * (t555 * (groundgo_3 * t905)) + (t803 * t892 - (t799 * t894 + (t795 *
+      t896 - (t810 * (groundgge_y * t894 - (groundgge_z * t892 - groundgge_x * t896)) - (t659 * t866 + (t749 *
+      (t483 * state.z[5]) - (t750 * (t483 * state.z[3]) + (t666 * t870 - (t748 * (t863 - t881) - (t744 * (t863
+      + t881) + (t737 * (t866 + t870) - (groundgy_z * model.c15 + (grounds1bn0_x * t1043 - (grounds1bn0_z *
+      t1044 + (t568 * t1120 - state.z[4] * (t483 * t679 - (t487 * t675 - t479 * t674)))))))))))))))))))));
+  const Real t1170 = t597 * (groundgo_4 * t781 * t853 - (state.z[4] * (t504 * t675) + (t811 * (t555 *
+      (expression_67 * t853 + t860)) + (t803 * t893 + (t799 * t895 - (t795 * t897 + (t810 * (groundgge_y *
+      t895 + (groundgge_z * t893 - groundgge_x * t897)) + (t659 * t824 - (t749 * (groundgz_z * t823) - (t750 *
+      (groundgz_z * t835) - (t666 * t845 - (t748 * (t828 - t836) - (t744 * (t828 + t836) + (t737 * (t824 +
+      t845) + (groundgz_z * model.c15 - (grounds2bn0_x * t1043 - (grounds2bn0_z * t1044 + (t579 * t1120 -
+      (t586 * t1144 - t830 * (groundgz_z * t679 - groundgo_4 * t674))))))))))))))))))));
+  const Real t1172 = t585 * t1144 + t586 * t1170;
+  const Real t1176 = t568 * t1172 - (t567 * t1120 - t579 * t1170);
+  const Real t1177 = Real(4.9999999999999995e-11) * t1176;
+  const Real t1181 = Real(1.5000000000000002e-10) * t1172 + t568 * t1177;
+  const Real t1188 = t597 * (t579 * t1177 + (Real(2.5e-10) * t1170 + t586 * t1181));
+  const Real t1190 = t585 * t1181 + t586 * t1188;
+  lambda[0] = t567 * t1177 + (t1176 + (t568 * t1190 + t579 * t1188));
+  lambda[1] = -(t1172 + t1190);
+  lambda[2] = t1170 + t1188;
 }
 
 template <class Real> JOURDAIN_FUNCTION

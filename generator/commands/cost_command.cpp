@@ -9,7 +9,6 @@
 
 #include "commands/commands.hpp"
 #include "commands/cost_text.hpp"
-#include "commands/memory_checks.hpp"
 #include "commands/method_names.hpp"
 #include "commands/progress.hpp"
 #include "commands/run_setup.hpp"
@@ -118,7 +117,7 @@ int run(CostArguments arguments) {
     return kModelWrong;
   }
   const auto conflict = [&](const std::vector<std::string>& methods) {
-    return check_multistep(methods, model->loaded.mechanism);
+    return check_steps(methods, model->loaded);
   };
   if (arguments.methods.empty()) {
     arguments.methods = default_methods(terms, velocities);

@@ -12,7 +12,6 @@
 #include <string_view>
 
 #include "commands/kinematic_choice.hpp"
-#include "commands/memory_checks.hpp"
 #include "commands/method_names.hpp"
 
 namespace jourdain::commands {
@@ -57,7 +56,7 @@ std::string EmissionArguments::apply(LoadedMechanism& loaded) const {
   if (std::string conflict = check_derivative_terms(functions, loaded.options.derivative_terms);
       !conflict.empty())
     return conflict;
-  if (std::string conflict = check_multistep(functions, loaded.mechanism); !conflict.empty()) return conflict;
+  if (std::string conflict = check_steps(functions, loaded); !conflict.empty()) return conflict;
   if (packs && language == "c") return "--packs is of C++, and the language is c";
   if (interface && language != "c") return "--interface is in C: add --language c";
   if (interface && calls_user_code(loaded.mechanism))

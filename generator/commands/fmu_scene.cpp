@@ -64,10 +64,10 @@ class Numbers {
 
   /// Of an entry of z; nothing but of states.
   std::optional<double> nominal(std::size_t velocity) const {
-    if (velocity < scene_.facts.displacements()) return {};
+    if (velocity < scene_.facts.moving()) return {};
     std::vector<double> values;
     for (const model::Parameter& parameter : scene_.facts.parameters) values.push_back(parameter.value);
-    const model::StateVariable& state = scene_.facts.states[velocity - scene_.facts.displacements()];
+    const model::StateVariable& state = scene_.facts.states[velocity - scene_.facts.moving()];
     return state.nominal.evaluate<double>(values);
   }
 
@@ -137,7 +137,8 @@ class Numbers {
 
 bool has_fmu_derivatives(const programs::SceneFacts& facts) {
   return !facts.velocities.empty() && facts.tangent.quaternions.empty() &&
-         (facts.constraints.empty() || facts.is_reduced);
+         (facts.constraints.empty() || facts.is_reduced) &&
+         (facts.carried.empty() || facts.dependents.empty());
 }
 
 FmuScene fmu_scene(const model::Mechanism& mechanism, const CompileOptions& options,

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "commands/memory_checks.hpp"
 #include "programs/steppers.hpp"
 #include "support/diagnostics.hpp"
 
@@ -28,6 +29,21 @@ std::string check_derivative_terms(const std::vector<std::string>& functions,
     if (stepper && stepper->order_with(false) == 0)
       return fmt::format("{} needs all derivatives; leave --derivatives applied out, or take rosw43",
                          stepper->name);
+  }
+  return "";
+}
+
+std::string check_steps(const std::vector<std::string>& functions, const LoadedMechanism& loaded) {
+  if (std::string conflict = check_multistep(functions, loaded.mechanism); !conflict.empty()) return conflict;
+  if (!loaded.plan() || loaded.plan()->carried().empty()) return "";
+  for (const std::string& function : functions) {
+    const programs::Stepper* stepper = programs::find_stepper(function.substr(0, function.rfind("_step")));
+    if (stepper && stepper->implicit)
+      return fmt::format(
+          "{} needs the velocities that follow from others in '{}', too; treatment = \"multipliers\" in "
+          "[loops] "
+          "keeps them",
+          stepper->name, loaded.mechanism.name);
   }
   return "";
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "commands/load.hpp"
 #include "programs/derivatives.hpp"
 
 namespace jourdain::commands {
@@ -14,6 +15,10 @@ std::string check_method(const std::string& method);
 /// Empty where each of `functions` that is a step keeps its order with these terms (names with or without "_step").
 std::string check_derivative_terms(const std::vector<std::string>& functions,
                                    programs::DerivativeTerms terms);
+
+/// Why functions that are steps cannot be had of that mechanism: see check_multistep; linearly implicit ones need all
+/// velocities. Empty: they can.
+std::string check_steps(const std::vector<std::string>& functions, const LoadedMechanism& loaded);
 
 /// All steppers, or those that keep their order with these terms.
 std::vector<std::string> methods_for(programs::DerivativeTerms terms);

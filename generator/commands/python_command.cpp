@@ -10,7 +10,6 @@
 #include "commands/content_hash.hpp"
 #include "commands/emission.hpp"
 #include "commands/kinematic_choice.hpp"
-#include "commands/memory_checks.hpp"
 #include "commands/method_names.hpp"
 #include "commands/python_module.hpp"
 #include "commands/python_names.hpp"
@@ -40,7 +39,7 @@ struct PythonArguments {
 std::vector<std::string> usual_functions(const LoadedMechanism& loaded) {
   std::vector<std::string> functions = programs::default_functions();
   for (const programs::Stepper& stepper : programs::all_steppers())
-    if (!stepper.implicit && check_multistep({stepper.name}, loaded.mechanism).empty())
+    if (!stepper.implicit && check_steps({stepper.name}, loaded).empty())
       functions.push_back(stepper.name + "_step");
   if (loaded.velocity_count() <= kMostVelocities) functions.emplace_back(ir::name_of(FunctionId::kLinearize));
   return functions;

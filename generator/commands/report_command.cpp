@@ -235,6 +235,15 @@ int run(ReportArguments arguments) {
         name);
     return kUsage;
   }
+  if (model->loaded.plan() && !model->loaded.plan()->carried().empty()) {
+    fmt::print(
+        stderr,
+        "error: velocities of '{}' follow from others whose positions do not; modes and limits of such "
+        "scenes are not reported. Use treatment = \"multipliers\" in [loops], and `jourdain simulate` for "
+        "the other\n",
+        name);
+    return kUsage;
+  }
   const std::string folder = arguments.folder.empty() ? name + "_report" : arguments.folder;
   support::check_writable(folder);
   if (arguments.plots) report::check_plotter();

@@ -205,7 +205,7 @@ int run(const SimulateArguments& arguments) {
   CompileOptions& options = model->loaded.options;
   for (const std::string& conflict :
        {check_derivative_terms({arguments.method}, options.derivative_terms),
-        check_multistep({arguments.method}, model->loaded.mechanism),
+        check_steps({arguments.method}, model->loaded),
         check_sampling(model->loaded.mechanism, model->parameters, arguments.step)})
     if (!conflict.empty()) {
       fmt::print(stderr, "error: {}\n", conflict);
@@ -242,7 +242,7 @@ int run(const SimulateArguments& arguments) {
       Simulation(flow, arguments, conserves, signals, *selection, guard ? &*guard : nullptr).run(steps, csv);
   if (result.breach) {
     fmt::print(stderr, "{}",
-               breach_text(flow, compiled.facts.tangent, *result.breach, arguments.method, arguments.step));
+               breach_text(flow, compiled.facts, *result.breach, arguments.method, arguments.step));
     return kModelWrong;
   }
   const std::string picture =

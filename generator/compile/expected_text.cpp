@@ -104,7 +104,9 @@ readback::Expected expected_text(const model::Mechanism& mechanism, const Compil
   for (const model::KinematicFunction& function : mechanism.kinematics)
     expected.kinematics.push_back(expected_kinematics(function, facts));
   expected.constraints = facts.constraints;
+  expected.is_reduced = facts.is_reduced;
   expected.dependents = facts.dependents;
+  expected.carried = facts.carried;
   expected.closings = facts.closings;
   if (options.loops) expect_loops(mechanism, *options.loops, expected);
   expected.scalars = entries_of(facts.tangent.scalars);

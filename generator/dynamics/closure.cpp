@@ -326,16 +326,18 @@ class Closure {
     for (std::size_t k = 0; k < path.links.size(); ++k)
       add_link(path.links[k],
                {forces[k], scene_.statements.bind(name + "m", moments[k] + cross(path.levers[k], forces[k]))},
-               name);
+               wrench.force, name);
   }
 
-  void add_link(std::size_t j, const Wrench& here, const std::string& name) {
+  /// `force_A` is the force in axes of the ancestor: those that the velocity of a free link is in.
+  void add_link(std::size_t j, const Wrench& here, const Vector3& force_A, const std::string& name) {
     if (!scene_.states[j].entry) {
       Ex& sum = closure_.time_slopes.back();
       sum = scene_.statements.bind(name + "t", sum + power(here, scene_.relative_twist(j)));
       return;
     }
-    const Wrench seen = to_external(scene_, j, here, name);
+    Wrench seen = to_external(scene_, j, here, name);
+    if (is_free(scene_.tree.links[j])) seen.force = force_A;
     for (const Column& column : scene_.columns[j]) {
       const Ex share = power(seen, column.twist);
       if (share.is_zero()) continue;

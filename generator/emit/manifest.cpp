@@ -116,10 +116,14 @@ std::string manifest(const ModelText& model, const std::vector<programs::Functio
   field("positions", string_array(model.facts.positions));
   field("velocities", string_array(model.facts.velocities));
   if (!model.facts.constraints.empty()) {
-    std::vector<std::string> dependents;
-    for (const std::size_t entry : model.facts.dependents) dependents.push_back(model.facts.positions[entry]);
+    const auto named = [&](const std::vector<std::size_t>& entries) {
+      std::vector<std::string> list;
+      for (const std::size_t entry : entries) list.push_back(model.facts.positions[entry]);
+      return string_array(list);
+    };
     field("constraints", string_array(model.facts.constraints));
-    field("dependent_positions", string_array(dependents));
+    field("dependent_positions", named(model.facts.dependents));
+    if (!model.facts.carried.empty()) field("carried_positions", named(model.facts.carried));
     field("least_regularity", fmt::format("{}", model.least_regularity));
     field("greatest_opening", fmt::format("{}", model.greatest_opening));
     if (!model.proven.positions.empty())

@@ -207,7 +207,7 @@ class CodeBuilder {
 
   /// Where a state's value waits until all are known.
   Expression sampled(const ir::Output& output) const {
-    return name("sampled")[static_cast<std::size_t>(output.row) - scene_.displacements()];
+    return name("sampled")[static_cast<std::size_t>(output.row) - scene_.moving()];
   }
 
   void frame_sampling(const ir::Program& program, Statements& body) const {

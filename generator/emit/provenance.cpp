@@ -30,7 +30,7 @@ std::vector<std::string> provenance(const ModelText& model, bool has_rate) {
   line("This file belongs to whoever ran the compiler; no licence of the generator applies to it.");
   lines.emplace_back();
   const char* t = model.facts.time.dynamics ? ", t" : "";
-  const bool has_multipliers = !model.facts.constraints.empty() && model.facts.dependents.empty();
+  const bool has_multipliers = !model.facts.constraints.empty() && !model.facts.is_reduced;
   const char* const states = model.facts.motions_follow_states ? ", z" : "";
   const char* const u = model.facts.motions_take_inputs ? ", u" : "";
   line(fmt::format(

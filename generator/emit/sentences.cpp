@@ -28,6 +28,9 @@ std::vector<std::string> state_sentences(const ModelText& model) {
     sentences.push_back(fmt::format("The last entries of z are the states {}.", states));
   if (const std::string sampled = state_names(model.facts, true); !sampled.empty())
     sentences.push_back(fmt::format("Steps begin with samples of {}, which are held in between.", sampled));
+  if (!model.facts.carried.empty())
+    sentences.push_back("Velocities of " + model.facts.carried_names() +
+                        " follow from z; these positions are carried along, as position_rate says.");
   if (model.facts.dependents.empty()) return sentences;
   std::string names;
   for (const std::size_t entry : model.facts.dependents)
@@ -46,15 +49,18 @@ std::string parameter_remark(const model::Parameter& parameter) {
 }
 
 std::string linearization_sentence(const programs::SceneFacts& scene) {
+  std::string parts = "nz each";
+  if (scene.displacements() != scene.velocities.size())
+    parts = fmt::format("{} and {}", scene.displacements(), scene.velocities.size());
+  if (!scene.carried.empty())
+    parts += fmt::format(", the last displacements those of {}", scene.carried_names());
+  if (!scene.states.empty()) parts += ", states among the velocities";
   return fmt::format(
       "With x = (displacements, velocities), {}, and o the numbers of all outputs in their order, "
       "matrices row by row: d(dx/dt) = A dx + B du{}, do = C dx + D du{}. The displacement of a coordinate "
       "is "
       "its change, that of a quaternion a small rotation in body axes, dquat = 1/2 quat (0, dtheta).",
-      scene.states.empty() ? "nz each"
-                           : fmt::format("{} and {}, states among the velocities", scene.displacements(),
-                                         scene.velocities.size()),
-      scene.time.dynamics ? " + rate_t dt" : "", scene.time.outputs ? " + output_t dt" : "");
+      parts, scene.time.dynamics ? " + rate_t dt" : "", scene.time.outputs ? " + output_t dt" : "");
 }
 
 std::vector<std::string> regularity_sentences(const std::string& limits) {

@@ -28,16 +28,17 @@ using ir::Signed;
 
 namespace {
 
-/// What the columns of a Jacobian stand for: displacements and velocities (nz each; those of states displace nothing),
-/// inputs, time.
+/// What the columns of a Jacobian stand for: displacements (one for each velocity, those of states displace nothing; then
+/// of what is carried along), velocities, inputs, time.
 struct Columns {
-  std::size_t velocities = 0, states = 0, inputs = 0;
+  std::size_t velocities = 0, states = 0, carried = 0, inputs = 0;
   bool time = false;  ///< something depends on it
 
-  std::size_t velocity(std::size_t i) const { return velocities + i; }
-  std::size_t input(std::size_t i) const { return 2 * velocities + i; }
-  std::size_t time_column() const { return 2 * velocities + inputs; }
-  std::size_t displacements() const { return velocities - states; }
+  std::size_t moving() const { return velocities - states; }
+  std::size_t displacements() const { return moving() + carried; }
+  std::size_t velocity(std::size_t i) const { return velocities + carried + i; }
+  std::size_t input(std::size_t i) const { return velocity(velocities) + i; }
+  std::size_t time_column() const { return input(inputs); }
   /// Of a column of displacements or velocities its number in a linearisation, which leaves out what displaces nothing.
   std::size_t linear(std::size_t column) const { return column < velocities ? column : column - states; }
 };
@@ -54,8 +55,8 @@ class Assembly {
         constrained_(by_equations && sources.constrained ? &*sources.constrained : nullptr),
         terms_(terms),
         order_(order),
-        columns_{sources.facts.velocities.size(), sources.facts.states.size(), sources.facts.inputs.size(),
-                 sources.facts.time.any()} {}
+        columns_{sources.facts.velocities.size(), sources.facts.states.size(), sources.facts.carried.size(),
+                 sources.facts.inputs.size(), sources.facts.time.any()} {}
 
   /// M and the derivatives of the residual.
   Program residual_derivatives() {
@@ -80,15 +81,7 @@ class Assembly {
   Program linearize() {
     const JacobianEntries J = acceleration_derivatives();
     write_kinematics();
-    for (const auto& [at, value] : J) {
-      const std::size_t row = columns_.displacements() + at.first;
-      if (at.second == columns_.time_column())
-        builder_.output("rate_t", static_cast<int>(row), -1, value);
-      else if (at.second >= columns_.input(0))
-        write("B", row, at.second - columns_.input(0), value);
-      else
-        write("A", row, columns_.linear(at.second), value);
-    }
+    write_rates(J, columns_.displacements());
     write_outputs(J);
     return finish(FunctionId::kLinearize);
   }
@@ -194,6 +187,19 @@ class Assembly {
     return result;
   }
 
+  /// Rows of A, B and ∂/∂t of what changes so, from a row on.
+  void write_rates(const JacobianEntries& J, std::size_t first) {
+    for (const auto& [at, value] : J) {
+      const std::size_t row = first + at.first;
+      if (at.second == columns_.time_column())
+        builder_.output("rate_t", static_cast<int>(row), -1, value);
+      else if (at.second >= columns_.input(0))
+        write("B", row, at.second - columns_.input(0), value);
+      else
+        write("A", row, columns_.linear(at.second), value);
+    }
+  }
+
   void write_residual_derivatives(const JacobianEntries& J) {
     for (const auto& [at, value] : J) {
       const auto [row, column] = at;
@@ -232,9 +238,11 @@ class Assembly {
   }
 
   /// The upper half of A: displacements follow velocities; those of a quaternion turn with the body, δθ̇ = δω − ω × δθ.
+  /// What is carried along has the velocity that it has.
   void write_kinematics() {
     const Signed one = builder_.literal(1);
-    for (std::size_t i = 0; i < columns_.displacements(); ++i)
+    if (columns_.carried > 0) write_rates(differentiated(sources_.carried_rates), columns_.moving());
+    for (std::size_t i = 0; i < columns_.moving(); ++i)
       write("A", i, columns_.linear(columns_.velocity(i)), one);
     for (const model::Tangent::Scalar& s : sources_.facts.tangent.quaternions)
       for (std::size_t k = 0; k < 3; ++k) {

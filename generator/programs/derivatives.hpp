@@ -35,6 +35,7 @@ struct DerivativeSources {
   ir::Program zdot;                    ///< M⁻¹ (k̄ − q̄)
   ir::Program outputs;                 ///< numbers of all outputs, with ż as leaves
   std::vector<ir::Program> mass_rows;  ///< the entries of one row of M each
+  ir::Program carried_rates;           ///< velocities of the coordinates that are carried along
   SceneFacts facts;
   /// How position leaves depend on the displacements and, beyond that, on time: the column after the last
   /// velocity, input.

@@ -18,8 +18,8 @@ constexpr const char* kByDisplacements =
     "\nBy y means by displacements, one per velocity: small rotations in body axes for quaternions.";
 constexpr const char* kNoDisplacements = "States have no displacements: their columns by y are zero.";
 
-constexpr Extent kZ = Extent::kVelocities, kX = Extent::kStates, kU = Extent::kInputs, kO = Extent::kOutputs,
-                 kG = Extent::kConstraints;
+constexpr Extent kZ = Extent::kVelocities, kY = Extent::kDisplaced, kX = Extent::kStates,
+                 kU = Extent::kInputs, kO = Extent::kOutputs, kG = Extent::kConstraints;
 
 /// A row for each function, in the order of emission.
 std::vector<FunctionInfo> function_table() {
@@ -130,7 +130,7 @@ std::vector<FunctionInfo> function_table() {
        .on_request = true,
        .holds_derivatives = true,
        .arrays = {{"M", {kZ, kZ}},
-                  {"r_y", {kZ, kZ}},
+                  {"r_y", {kZ, kY}},
                   {"r_z", {kZ, kZ}},
                   {"r_u", {kZ, kU}},
                   {"r_t", {kZ}, &TimeDependence::dynamics}}},
@@ -141,7 +141,7 @@ std::vector<FunctionInfo> function_table() {
        .comment_states = kNoDisplacements,
        .on_request = true,
        .holds_derivatives = true,
-       .arrays = {{"zdot", {kZ}}, {"zdot_y", {kZ, kZ}}, {"zdot_z", {kZ, kZ}}}},
+       .arrays = {{"zdot", {kZ}}, {"zdot_y", {kZ, kY}}, {"zdot_z", {kZ, kZ}}}},
       {.id = FunctionId::kLinearize,
        .shape = Shape::kLinearization,
        .takes_input = true,
@@ -208,6 +208,8 @@ std::size_t count(const SceneFacts& scene, Extent extent) {
   switch (extent) {
     case Extent::kVelocities:
       return scene.velocities.size();
+    case Extent::kDisplaced:
+      return scene.velocities.size() + scene.carried.size();
     case Extent::kStates:
       return scene.displacements() + scene.velocities.size();
     case Extent::kInputs:
@@ -280,6 +282,14 @@ std::string comment_of(const FunctionInfo& function, const SceneFacts& scene) {
     if (!remark.empty()) comment += "\n" + remark;
   };
   if (!scene.states.empty()) add(function.comment_states);
+  const bool is_by_displacements =
+      std::any_of(function.arrays.begin(), function.arrays.end(), [](const ArrayResult& array) {
+        return std::find(array.extents.begin(), array.extents.end(), Extent::kDisplaced) !=
+               array.extents.end();
+      });
+  if (is_by_displacements && !scene.carried.empty())
+    add("The last columns by y are those of coordinates that are carried along: " + scene.carried_names() +
+        ".");
   if (function.holds_accelerations && scene.motions_take_inputs)
     add("Inputs push nothing here: prescribed accelerations depend on them.");
   if (!scene.constraints.empty())
@@ -293,7 +303,8 @@ bool has_function(const FunctionInfo& function, const SceneFacts& scene) {
     case Shape::kScalar:
       return true;
     case Shape::kStep:
-      return function.stepper->history == 0 || !*sampling(scene);
+      return (function.stepper->history == 0 || !*sampling(scene)) &&
+             (!function.stepper->implicit || scene.carried.empty());
     case Shape::kVector:
     case Shape::kMatrix:
     case Shape::kLinearization:

@@ -28,6 +28,7 @@ enum class Shape {
 /// How far a subscript runs.
 enum class Extent {
   kVelocities,  ///< nz
+  kDisplaced,   ///< nz, then what is carried along
   kStates,      ///< displacements and velocities
   kInputs,
   kOutputs,      ///< numbers of all outputs

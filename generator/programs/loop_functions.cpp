@@ -246,6 +246,7 @@ Program closing_program(const loops::LoopSystem& system) {
   std::vector<bool> dependent(system.layout.velocity_count(), false);
   Signed determinant = builder.literal(1 / system.plan.determinant), opening = builder.literal(0);
   for (const loops::Block& block : system.plan.blocks) {
+    JD_CHECK(block.binds_positions, "what is carried along is not closed");
     for (const std::size_t k : block.dependents) dependent[k] = true;
     for (int i = 0; i < system.plan.iterations; ++i) {
       const loops::ConstraintValues values(builder, system, y);
@@ -330,18 +331,28 @@ Program outputs_at_accelerations(const loops::LoopSystem& system) {
   return program.finish("outputs at accelerations");
 }
 
-/// Displacements of the independent coordinates move the dependent ones along; so does time.
+Program carried_rates(const loops::LoopSystem& system) {
+  Builder builder;
+  const loops::Dependence dependence(builder, system);
+  int row = 0;
+  for (const std::size_t k : system.plan.carried()) builder.output("v", row++, -1, dependence.z()[k]);
+  return passes::remove_dead_code(builder.finish("rates of what is carried along"));
+}
+
+/// Displacements of the independent coordinates, and of those carried along, move the dependent ones; so does time.
 std::vector<ir::Seed> independent_seeds(const loops::LoopSystem& system, Builder& builder,
                                         std::size_t time_column) {
   const loops::Dependence dependence(builder, system);
+  const std::vector<ir::Column> displacements = dependence.displacements();
+  const ir::Column drift = dependence.drift();
   std::vector<ir::Seed> seeds;
   const auto add = [&](const ir::Seed& seed, std::size_t column, Signed share) {
     if (!builder.is_literal(share, 0))
       seeds.push_back({seed.leaf, column, builder.multiply(seed.partial, share)});
   };
   for (const ir::Seed& seed : lowering::displacement_seeds(builder, system.layout.tangent)) {
-    for (std::size_t j = 0; j < dependence.B().size(); ++j) add(seed, j, dependence.B()[j][seed.column]);
-    add(seed, time_column, dependence.b()[seed.column]);
+    for (std::size_t j = 0; j < displacements.size(); ++j) add(seed, j, displacements[j][seed.column]);
+    add(seed, time_column, drift[seed.column]);
   }
   return seeds;
 }
@@ -358,6 +369,7 @@ DerivativeSources derivative_sources(const loops::LoopSystem& system) {
   if (!system.mechanism.outputs.empty()) sources.outputs = outputs_at_accelerations(system);
   const Program M = loop_program(system, FunctionId::kMassMatrix);
   for (std::size_t i = 0; i < velocities; ++i) sources.mass_rows.push_back(row_of(M, i, velocities));
+  if (!sources.facts.carried.empty()) sources.carried_rates = carried_rates(system);
   sources.position_seeds = [&system](Builder& builder, std::size_t time_column) {
     return independent_seeds(system, builder, time_column);
   };

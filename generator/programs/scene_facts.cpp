@@ -56,11 +56,21 @@ std::vector<std::size_t> dependent_positions(const loops::LoopPlan& plan, const 
   std::vector<std::size_t> entries;
   if (!plan.is_reduced()) return entries;
   const auto place = places(plan);
+  const std::vector<std::size_t> carried = plan.carried();
   for (const model::Tangent::Scalar& s : tree.scalars)
-    if (!place[s.velocity]) entries.push_back(s.position);
+    if (!place[s.velocity] && !std::binary_search(carried.begin(), carried.end(), s.velocity))
+      entries.push_back(s.position);
   for (const model::Tangent::Scalar& s : tree.quaternions)
     for (std::size_t k = 0; !place[s.velocity] && k < 4; ++k) entries.push_back(s.position + k);
   std::sort(entries.begin(), entries.end());
+  return entries;
+}
+
+std::vector<std::size_t> carried_positions(const loops::LoopPlan& plan, const model::Tangent& tree) {
+  std::vector<std::size_t> entries;
+  for (const std::size_t k : plan.carried())
+    for (const model::Tangent::Scalar& s : tree.scalars)
+      if (s.velocity == k) entries.push_back(s.position);
   return entries;
 }
 
@@ -70,6 +80,7 @@ void set_loop_facts(const model::Mechanism& mechanism, const loops::LoopPlan& pl
   facts.closings = plan.closings();
   if (!plan.is_reduced()) return;
   facts.dependents = dependent_positions(plan, facts.tangent);
+  facts.carried = carried_positions(plan, facts.tangent);
   facts.tangent = independent_tangent(plan, facts.tangent);
   std::vector<std::string> independent;
   for (const std::size_t k : plan.independent) independent.push_back(facts.velocities[k]);
@@ -91,6 +102,12 @@ std::string comment_of(const model::KinematicFunction& function, const model::Me
 }
 
 }  // namespace
+
+std::string SceneFacts::carried_names() const {
+  std::string names;
+  for (const std::size_t entry : carried) names += (names.empty() ? "" : ", ") + positions[entry];
+  return names;
+}
 
 std::size_t SceneFacts::output_numbers() const {
   std::size_t count = 0;

@@ -51,11 +51,16 @@ struct SceneFacts {
   std::vector<std::string> constraints;  ///< names of the rows of all loops
   bool is_reduced = false;               ///< some coordinates follow from others
   std::vector<std::size_t> dependents;   ///< entries of y that close_loops sets
+  std::vector<std::size_t> carried;      ///< entries of y whose velocities follow, but not they themselves
   int closings =
       1;  ///< calls of close_loops where dependent positions were not integrated along: more for Newton's method
 
   /// Entries of z that displace something.
-  std::size_t displacements() const { return velocities.size() - states.size(); }
+  std::size_t moving() const { return velocities.size() - states.size(); }
+  /// Displacements of positions that are not closed: of the independent coordinates, then of those carried along.
+  std::size_t displacements() const { return moving() + carried.size(); }
+  /// "floor_x, floor_y"
+  std::string carried_names() const;
   /// dy/dt is not z.
   bool has_rate() const { return !tangent.quaternions.empty() || is_reduced || !states.empty(); }
   /// Numbers of all outputs.

@@ -54,9 +54,9 @@ FunctionApi mass_matrix(std::size_t n) {
 }
 
 std::vector<FunctionApi> programs(const Expected& expected) {
-  const std::size_t n = expected.velocities.size(), u = expected.inputs.size(),
-                    g = expected.constraints.size();
-  std::vector<ArrayArgument> derivatives = {{"M", {n, n}}, {"r_y", {n, n}}, {"r_z", {n, n}}, {"r_u", {n, u}}};
+  const std::size_t n = expected.velocities.size(), y = n + expected.carried.size(),
+                    u = expected.inputs.size(), g = expected.constraints.size();
+  std::vector<ArrayArgument> derivatives = {{"M", {n, n}}, {"r_y", {n, y}}, {"r_z", {n, n}}, {"r_u", {n, u}}};
   if (expected.dynamics_depend_on_time) derivatives.push_back({"r_t", {n}});
   return {returning("initial_state", Result::kState),
           returning("kinetic_energy", Result::kNumber),
@@ -76,7 +76,7 @@ std::vector<FunctionApi> programs(const Expected& expected) {
           sparse(arrays("residual", {{"r", {n}}}, true, true)),
           sparse(arrays("residual_derivatives", derivatives, true, true)),
           sparse(arrays("forward_dynamics_derivatives",
-                        {{"zdot", {n}}, {"zdot_y", {n, n}}, {"zdot_z", {n, n}}}, true)),
+                        {{"zdot", {n}}, {"zdot_y", {n, y}}, {"zdot_z", {n, n}}}, true)),
           sparse(in_struct("linearize", "Linearization"))};
 }
 
@@ -159,8 +159,8 @@ std::size_t output_numbers(const Expected& expected) {
 }
 
 std::vector<ArrayArgument> linearization_members(const Expected& expected) {
-  const std::size_t x = 2 * expected.velocities.size() - expected.states, u = expected.inputs.size(),
-                    o = output_numbers(expected);
+  const std::size_t x = 2 * expected.velocities.size() - expected.states + expected.carried.size(),
+                    u = expected.inputs.size(), o = output_numbers(expected);
   std::vector<ArrayArgument> members = {{"A", {x, x}}};
   if (u > 0) members.push_back({"B", {x, u}});
   if (o > 0) members.push_back({"C", {o, x}});
@@ -171,12 +171,12 @@ std::vector<ArrayArgument> linearization_members(const Expected& expected) {
 }
 
 bool has_rate(const Expected& expected) {
-  return !expected.quaternions.empty() || !expected.dependents.empty() || expected.states > 0;
+  return !expected.quaternions.empty() || expected.is_reduced || expected.states > 0;
 }
 
 std::string correction_of(const Expected& expected) {
   if (expected.constraints.empty()) return "";
-  return expected.dependents.empty() ? "project" : "close_loops";
+  return expected.is_reduced ? "close_loops" : "project";
 }
 
 }  // namespace jourdain::readback

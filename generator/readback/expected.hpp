@@ -85,7 +85,9 @@ struct Expected {
   std::vector<ExpectedOutput> outputs;
   std::vector<ExpectedKinematics> kinematics;
   std::vector<ExpectedTangent> scalars, quaternions;  ///< of the independent coordinates
+  bool is_reduced = false;                            ///< some velocities follow from others
   std::vector<std::size_t> dependents;                ///< entries of y that close_loops sets
+  std::vector<std::size_t> carried;                   ///< entries of y whose velocities alone follow
   bool motions_take_inputs = false;                   ///< prescribed accelerations depend on inputs
   bool dynamics_depend_on_time = false, outputs_depend_on_time = false;
   bool clock = false;             ///< states hold the time

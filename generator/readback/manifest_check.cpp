@@ -112,6 +112,9 @@ class ManifestCheck {
     for (const ExpectedParameter& parameter : expected_.parameters) names.push_back(parameter.name);
     expect("constraints", expected_.constraints);
     expect("dependent_positions", dependents);
+    std::vector<std::string> carried;
+    for (const std::size_t entry : expected_.carried) carried.push_back(expected_.positions[entry]);
+    if (!carried.empty()) expect("carried_positions", carried);
     expect("least_regularity", expected_.least_regularity);
     expect("greatest_opening", expected_.greatest_opening);
     if (!expected_.proven_positions.empty())

@@ -159,8 +159,16 @@ TEST(Rolling, SleighFollowsItsTwoEquations) {
   EXPECT_LE(static_cast<double>((found - expected).norm()), kRounding);
 }
 
+/// The robot on two wheels, its velocities independent ones or all with multipliers.
+model::Mechanism robot(model::LoopTreatment treatment) {
+  model::Mechanism mechanism = model_named("differential_drive");
+  mechanism.loop_options = {};
+  mechanism.loop_options.treatment = treatment;
+  return mechanism;
+}
+
 TEST(Rolling, RobotOnTwoWheelsFollowsItsTwoEquations) {
-  const ClosedPrograms programs(model_named("differential_drive"));
+  const ClosedPrograms programs(robot(model::LoopTreatment::kMultipliers));
   const Long r = 0.1L, b = 0.2L, d = 0.05L, base = 8, wheel = 0.5L, J = 0.0025L;
   const Long mass = base + 2 * wheel + 2 * J / (r * r),
              inertia = 0.2L + base * d * d + 2 * (wheel * b * b + 0.0013L) + 2 * J * b * b / (r * r);
@@ -184,6 +192,12 @@ TEST(Rolling, RobotOnTwoWheelsFollowsItsTwoEquations) {
   close("floor_x", forward * std::cos(angle) - v * w * std::sin(angle));
   close("left", (forward - b * turning) / r);
   close("right", (forward + b * turning) / r);
+  const ClosedPrograms reduced(robot(model::LoopTreatment::kExplicit));
+  ASSERT_EQ(reduced.plan().independent.size(), 2u);
+  const VectorL found = reduced.accelerations(state, VectorL{{left, right}});
+  for (Eigen::Index j = 0; j < 2; ++j)
+    EXPECT_NEAR(double(found[j]), double(zdot[Eigen::Index(reduced.plan().independent[std::size_t(j)])]),
+                1e-10);
 }
 
 constexpr const char* kSnakeboard = R"toml(

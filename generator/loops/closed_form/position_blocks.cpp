@@ -52,6 +52,8 @@ class Closing {
       if (block.dependents.size() > kScalars) return fmt::format("block of {} unknowns", count);
       if (std::string failure = solve_block(block); !failure.empty()) return failure;
     }
+    for (const VelocityBlock& block : request_.velocities)
+      if (std::string failure = require_regular(block); !failure.empty()) return failure;
     if (std::string failure = check_start(); !failure.empty()) return failure;
     ClosedForm result{closing_program()};
     if (std::string failure = check(result.close); !failure.empty()) return failure;
@@ -59,6 +61,12 @@ class Closing {
     if (const auto* failure = std::get_if<std::string>(&reached)) return *failure;
     result.smallest_margin = std::get<Reached>(reached).margin;
     result.box.positions = std::get<Reached>(reached).positions;
+    if (!determinants_.empty()) {
+      const auto regular = proven(determinants_, {}, "determinant");
+      if (const auto* failure = std::get_if<std::string>(&regular)) return *failure;
+      result.least_determinant = std::sqrt(std::get<Reached>(regular).margin);
+      add_positions(std::get<Reached>(regular), result.box.positions);
+    }
     for (const Elimination& elimination : request_.eliminations)
       result.has_pivots.push_back(has_pivots(elimination, result.box.positions));
     list_parameters(result);
@@ -66,15 +74,17 @@ class Closing {
   }
 
  private:
-  std::variant<Reached, std::string> proven(const std::vector<Requirement>& requirements,
-                                            Effort effort = {}) const {
-    return smallest_margin({builder_, requirements, request_.parameters, request_.angular, request_.range,
-                            roles_.names, dependents_, request_.parameter_range, request_.parameter_names},
-                           effort);
+  std::variant<Reached, std::string> proven(const std::vector<Requirement>& requirements, Effort effort = {},
+                                            const char* margin = "discriminant") const {
+    return smallest_margin(
+        {builder_, requirements, request_.parameters, request_.angular, request_.range, roles_.names,
+         dependents_, request_.parameter_range, request_.parameter_names, margin},
+        effort);
   }
 
-  /// Adds to the positions for which that is so.
-  bool has_pivots(const Elimination& elimination, std::vector<ProvenRange>& positions) {
+  /// Those entries of G at the dependents found, by row.
+  std::variant<std::vector<ir::Column>, std::string> jacobian(const std::vector<std::size_t>& rows,
+                                                              const std::vector<std::size_t>& columns) {
     std::vector<ir::ValueId> values;
     std::vector<std::pair<std::size_t, std::size_t>> places;
     for (const ir::Output& output : request_.jacobian.outputs) {
@@ -83,9 +93,8 @@ class Closing {
             std::find(list.begin(), list.end(), static_cast<std::size_t>(subscript)) - list.begin());
       };
       if (output.name != "G") continue;
-      const std::size_t i = place(elimination.rows, output.row),
-                        j = place(elimination.columns, output.column);
-      if (i == elimination.rows.size() || j == elimination.columns.size()) continue;
+      const std::size_t i = place(rows, output.row), j = place(columns, output.column);
+      if (i == rows.size() || j == columns.size()) continue;
       values.push_back(output.value);
       places.emplace_back(i, j);
     }
@@ -97,14 +106,37 @@ class Closing {
       for (std::size_t k = 0; k < 4; ++k) roles.known.erase(*roles.rotation + k);
     }
     const auto entries = polynomials_of(builder_, request_.jacobian, values, roles);
-    if (std::holds_alternative<std::string>(entries)) return false;
-    const std::size_t n = elimination.rows.size();
+    if (const auto* failure = std::get_if<std::string>(&entries)) return *failure;
+    const std::size_t n = rows.size();
     std::vector<ir::Column> A(n, ir::Column(n, builder_.literal(0)));
     for (std::size_t k = 0; k < places.size(); ++k) {
       const Polynomial& entry = std::get<std::vector<Polynomial>>(entries)[k];
       A[places[k].first][places[k].second] = at_rotation(entry, roles.rotation).value;
     }
-    const DenseSolver solver(builder_, A, true);
+    return A;
+  }
+
+  /// Puts the determinants of what velocities are solved for among the requirements. Otherwise why they are none.
+  std::string require_regular(const VelocityBlock& block) {
+    const auto A = jacobian(block.rows, block.dependents);
+    if (const auto* failure = std::get_if<std::string>(&A))
+      return fmt::format("velocities of {}: {}", block.names, *failure);
+    const DenseSolver solver(builder_, std::get<std::vector<ir::Column>>(A));
+    const bool is_square = block.rows.size() > DenseSolver::kLargestByCofactors;
+    const double start = initial({&builder_, solver.determinant()}, samples_);
+    if (!(std::fabs(start) > 0))
+      return fmt::format("velocities of {} do not follow at the start", block.names);
+    const ir::Signed share = builder_.multiply(builder_.literal(1 / start), solver.determinant());
+    determinants_.push_back(
+        {is_square ? share : builder_.multiply(share, share), true, "the velocities of " + block.names});
+    return "";
+  }
+
+  /// Adds to the positions for which that is so.
+  bool has_pivots(const Elimination& elimination, std::vector<ProvenRange>& positions) {
+    const auto A = jacobian(elimination.rows, elimination.columns);
+    if (std::holds_alternative<std::string>(A)) return false;
+    const DenseSolver solver(builder_, std::get<std::vector<ir::Column>>(A), true);
     std::vector<Requirement> requirements;
     for (const ir::Signed& pivot : solver.pivots()) {
       const bool is_positive = initial({&builder_, pivot}, samples_) > 0;
@@ -112,11 +144,15 @@ class Closing {
     }
     const auto reached = proven(requirements, {.boxes = kPivotBoxes, .is_sharp = false});
     if (std::holds_alternative<std::string>(reached)) return false;
-    for (const ProvenRange& range : std::get<Reached>(reached).positions)
+    add_positions(std::get<Reached>(reached), positions);
+    return true;
+  }
+
+  static void add_positions(const Reached& reached, std::vector<ProvenRange>& positions) {
+    for (const ProvenRange& range : reached.positions)
       if (std::none_of(positions.begin(), positions.end(),
                        [&](const ProvenRange& known) { return known.index == range.index; }))
         positions.push_back(range);
-    return true;
   }
 
   /// A polynomial of nothing but the entries of one known rotation.
@@ -148,6 +184,12 @@ class Closing {
     return entries;
   }
 
+  std::vector<Requirement> all_conditions() const {
+    std::vector<Requirement> all = conditions_;
+    all.insert(all.end(), determinants_.begin(), determinants_.end());
+    return all;
+  }
+
   ir::Program closing_program() const {
     ir::Builder closing = builder_;
     ir::Signed regularity = closing.literal(1), opening = closing.literal(0);
@@ -157,7 +199,7 @@ class Closing {
       const ir::Signed change = closing.subtract(found, closing.leaf(LeafKind::kPosition, k));
       opening = closing.add(opening, closing.multiply(change, change));
     }
-    for (const Requirement& condition : conditions_)
+    for (const Requirement& condition : all_conditions())
       if (condition.is_margin) regularity = closing.multiply(regularity, condition.value);
     closing.output("regularity", -1, -1, regularity);
     closing.output("opening", -1, -1, opening);
@@ -174,9 +216,13 @@ class Closing {
   /// Those that the constraints depend on.
   void list_parameters(ClosedForm& result) const {
     std::vector<bool> enters(request_.parameter_names.size(), false);
-    for (const ir::Node& node : request_.g.nodes)
-      if (node.op == ir::Op::kLeaf && node.leaf == LeafKind::kParameter && node.index < enters.size())
-        enters[node.index] = true;
+    const auto look = [&enters](const Program& rows) {
+      for (const ir::Node& node : rows.nodes)
+        if (node.op == ir::Op::kLeaf && node.leaf == LeafKind::kParameter && node.index < enters.size())
+          enters[node.index] = true;
+    };
+    look(request_.g);
+    if (!request_.velocities.empty()) look(request_.jacobian);
     for (std::size_t k = 0; k < enters.size(); ++k) {
       if (!enters[k]) continue;
       const auto& range = request_.parameter_range[k];
@@ -307,7 +353,7 @@ class Closing {
   std::vector<bool> nearly_dead() const {
     std::vector<Scalar> values;
     ir::Builder copy = builder_;
-    for (const Requirement& condition : conditions_) values.push_back({&copy, condition.value});
+    for (const Requirement& condition : all_conditions()) values.push_back({&copy, condition.value});
     const std::vector<std::vector<double>> found = evaluated(values, samples_);
     std::vector<bool> dead;
     for (const std::vector<double>& at : found) {
@@ -338,6 +384,7 @@ class Closing {
   std::vector<std::size_t> dependents_;       ///< in order of solution
   Samples samples_;
   std::vector<Requirement> conditions_;
+  std::vector<Requirement> determinants_;  ///< of what velocities are solved for
 };
 
 }  // namespace

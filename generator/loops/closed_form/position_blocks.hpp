@@ -25,6 +25,12 @@ struct Elimination {
   std::vector<std::size_t> rows, columns;
 };
 
+/// Rows of G without a position form, and the velocities that they determine.
+struct VelocityBlock {
+  std::vector<std::size_t> rows, dependents;
+  std::string names;  ///< of the dependents
+};
+
 struct ClosedFormRequest {
   ir::Program g;  ///< outputs ("g", row); leaves: positions, time and parameters
   std::vector<PositionBlock> blocks;
@@ -39,6 +45,7 @@ struct ClosedFormRequest {
   ir::Program spans = {};     ///< as in ConstraintPrograms; of no row: rods are seen as other rows
   ir::Program jacobian = {};  ///< outputs ("G", row, column)
   std::vector<Elimination> eliminations = {};  ///< whose pivots are to be proven
+  std::vector<VelocityBlock> velocities = {};  ///< whose determinants must not vanish
 };
 
 /// Solves blocks of one coordinate (linear, or α cos + β sin = γ) and of two: two angles of which the rows are
@@ -46,7 +53,8 @@ struct ClosedFormRequest {
 /// R(a) (u + v s), two slides; three slides between three spheres; a rotation in space with at most one
 /// coordinate (see solve_rotation). e is (cos, sin); rows may be combined by any regular matrix that the
 /// unknowns do not change. Every root is proven to stay off zero over the range of the independent coordinates
-/// that matter: an angle without range may take any value. Otherwise the reason, a phrase for the user.
+/// that matter: an angle without range may take any value; so are the determinants of `velocities`, as shares of those
+/// at the start. Otherwise the reason, a phrase for the user.
 std::variant<ClosedForm, std::string> closed_form(const ClosedFormRequest& request);
 
 }  // namespace jourdain::loops

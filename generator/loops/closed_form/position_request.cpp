@@ -1,5 +1,8 @@
 #include "loops/closed_form/position_request.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 
 #include "model/angular_entries.hpp"
@@ -11,6 +14,12 @@ namespace {
 
 bool is_among(const std::vector<std::size_t>& list, std::size_t k) {
   return std::find(list.begin(), list.end(), k) != list.end();
+}
+
+std::string names_of(const Block& block, const model::CoordinateLayout& layout) {
+  std::vector<std::string> names;
+  for (const std::size_t k : block.dependents) names.push_back(layout.velocity_names[k]);
+  return fmt::format("{}", fmt::join(names, ", "));
 }
 
 }  // namespace
@@ -25,6 +34,10 @@ std::variant<ClosedFormRequest, std::string> position_request(const model::Mecha
   request.spans = constraints.spans;
   request.jacobian = constraints.jacobian;
   for (const Block& block : plan.blocks) {
+    if (!block.binds_positions) {
+      request.velocities.push_back({block.rows, block.dependents, names_of(block, layout)});
+      continue;
+    }
     PositionBlock& positions = request.blocks.emplace_back();
     positions.rows = block.rows;
     for (const model::Tangent::Scalar& scalar : tangent.scalars)

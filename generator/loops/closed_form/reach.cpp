@@ -38,7 +38,8 @@ class Reach {
 
   std::variant<Reached, std::string> run(Effort effort) {
     if (std::string failure = lay_out(); !failure.empty()) return failure;
-    if (ir::count_operations(program_).atan2 > 0) return "its discriminant has an arctangent, which jumps";
+    if (ir::count_operations(program_).atan2 > 0)
+      return fmt::format("its {} has an arctangent, which jumps", request_.margin);
     std::vector<Bound> bounds;
     for (const Requirement& requirement : request_.requirements)
       bounds.push_back({values_[bounds.size()], requirement.is_margin ? kLeastMargin : kLeastDivisor});
@@ -79,12 +80,12 @@ class Reach {
         if (parameter(node.index).width() > 0) region_.entries.push_back({LeafKind::kParameter, node.index});
         continue;
       }
-      if (node.leaf != LeafKind::kPosition) return "its discriminant depends on time";
+      if (node.leaf != LeafKind::kPosition) return fmt::format("its {} depends on time", request_.margin);
       const std::size_t k = node.index;
       if (std::find(request_.dependents.begin(), request_.dependents.end(), k) != request_.dependents.end())
-        return fmt::format("its discriminant depends on the whole turns of {}", names_[k]);
+        return fmt::format("its {} depends on the whole turns of {}", request_.margin, names_[k]);
       if (!range_[k] && !(angular_[k] && is_periodic(program_, k)))
-        return fmt::format("its discriminant depends on {}, which has no range", names_[k]);
+        return fmt::format("its {} depends on {}, which has no range", request_.margin, names_[k]);
       region_.entries.push_back({LeafKind::kPosition, k});
       region_.leaves[LeafKind::kPosition][k] =
           range_[k] ? Interval{(*range_[k])[0], (*range_[k])[1]} : circle();
@@ -118,7 +119,7 @@ class Reach {
       point += fmt::format("{}{} = {:.4g}", separator, name, found.position[i]);
     }
     std::string message =
-        fmt::format("{} of {} not proven positive", requirement.is_margin ? "discriminant" : "divisor",
+        fmt::format("{} of {} not proven positive", requirement.is_margin ? request_.margin : "divisor",
                     requirement.dependents);
     if (!region.empty())
       message += fmt::format(" over {}: it {} {}", region,

@@ -16,7 +16,8 @@ namespace jourdain::loops {
 /// A value that must be positive for a closed form to hold.
 struct Requirement {
   ir::Signed value;
-  bool is_margin = true;   ///< of a discriminant, so that its least value is reported; otherwise of a divisor
+  bool is_margin =
+      true;  ///< of a discriminant or determinant, so that its least value is reported; otherwise of a divisor
   std::string dependents;  ///< names of what is found by it
 };
 
@@ -30,6 +31,7 @@ struct ReachRequest {
   const std::vector<std::size_t>& dependents;                                ///< entries of y
   const std::vector<std::optional<std::array<double, 2>>>& parameter_range;  ///< none: as in `parameters`
   const std::vector<std::string>& parameter_names;
+  const char* margin = "discriminant";  ///< what a margin is of, in messages
 };
 
 struct Reached {

@@ -9,6 +9,8 @@
 #include "loops/closed_form/position_request.hpp"
 #include "loops/regularity/regularity_proof.hpp"
 #include "loops/rows/configuration.hpp"
+#include "model/loop_kinds.hpp"
+#include "passes/rewrite.hpp"
 
 namespace jourdain::loops {
 
@@ -31,6 +33,13 @@ std::vector<double> closed_again(const LoopPlan& plan, const std::vector<double>
   return y;
 }
 
+/// Of the closed form the part that sets positions, printed: what regularity is a share of may depend on parameters.
+std::string positions_of(const ClosedForm& form) {
+  ir::Program close = form.close;
+  std::erase_if(close.outputs, [](const ir::Output& output) { return output.name == "regularity"; });
+  return ir::print(passes::remove_dead_code(close));
+}
+
 std::string why_not_explicit(const model::Mechanism& mechanism, const ConstraintPrograms& constraints,
                              const LoopPlan& plan, const std::vector<double>& parameters) {
   ClosedFormRequest request = std::get<ClosedFormRequest>(position_request(mechanism, constraints, plan));
@@ -45,7 +54,7 @@ std::string why_not_explicit(const model::Mechanism& mechanism, const Constraint
   if (const auto* failure = std::get_if<std::string>(&found)) return *failure;
   for (const bool has_pivots : std::get<ClosedForm>(found).has_pivots)
     if (!has_pivots) return "a divisor of the velocities is not proven to stay off zero there";
-  const bool same = ir::print(std::get<ClosedForm>(found).close) == ir::print(plan.closed_form->close);
+  const bool same = positions_of(std::get<ClosedForm>(found)) == positions_of(*plan.closed_form);
   return same ? "" : "the closed form is another one there";
 }
 
@@ -82,10 +91,13 @@ std::optional<std::string> unproven_at(const model::Mechanism& mechanism, const 
   std::vector<std::string> changed;
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     const model::Parameter& parameter = mechanism.parameters[k];
-    const auto& nodes = constraints.value.nodes;
-    const bool enters = std::any_of(nodes.begin(), nodes.end(), [k](const ir::Node& node) {
-      return node.op == ir::Op::kLeaf && node.leaf == LeafKind::kParameter && node.index == k;
-    });
+    const auto enters_in = [k](const ir::Program& rows) {
+      return std::any_of(rows.nodes.begin(), rows.nodes.end(), [k](const ir::Node& node) {
+        return node.op == ir::Op::kLeaf && node.leaf == LeafKind::kParameter && node.index == k;
+      });
+    };
+    const bool enters = enters_in(constraints.value) ||
+                        (model::binds_velocities(mechanism) && enters_in(constraints.jacobian));
     if (enters && !parameter.range && parameters[k] != parameter.value)
       changed.push_back(fmt::format("{} = {}", parameter.name, parameters[k]));
   }

@@ -10,10 +10,12 @@
 #include "loops/plan/elimination_order.hpp"
 #include "loops/plan/inertia.hpp"
 #include "loops/plan/partition.hpp"
+#include "loops/plan/preferred.hpp"
 #include "loops/plan/scales.hpp"
 #include "loops/plan/sharing_rows.hpp"
 #include "loops/plan/start.hpp"
 #include "loops/plan/states.hpp"
+#include "loops/plan/velocity_partition.hpp"
 #include "loops/plan/velocity_rows.hpp"
 #include "loops/regularity/regularity_proof.hpp"
 #include "loops/rows/disagreement.hpp"
@@ -63,7 +65,7 @@ class Planner {
     set_scales(mechanism_, start_, jacobians_.front(), massless_.empty(), plan_);
     if (model::binds_velocities(mechanism_)) {
       if (!check_velocities(mechanism_, closure_, configurations_, plan_.rows, diagnostics_)) return {};
-      plan_.reason = "constraints of velocities leave positions free";
+      if (!treat_velocities()) return {};
     } else if (!(plan_.freedom == 0 ? treat_determined() : treat())) {
       return {};
     }
@@ -117,49 +119,6 @@ class Planner {
       first += count;
     }
     return all_act;
-  }
-
-  /// Coordinates that are driven, or that the description starts with a velocity.
-  std::vector<bool> preferred() const {
-    std::vector<bool> list(layout_.velocity_count(), false);
-    for_each_force_element(mechanism_, [&](const auto& element) {
-      const std::optional<model::ScalarCoordinate> at = element.pushed();
-      if (!at) return;
-      if (const auto entry = layout_.joints[at->joint.value].velocity[at->coordinate]) list[*entry] = true;
-    });
-    for (std::size_t j = 0; j < mechanism_.joints.size(); ++j)
-      for (std::size_t c = 0; c < mechanism_.joints[j].coordinates.size(); ++c)
-        if (const auto entry = layout_.joints[j].velocity[c];
-            entry && !mechanism_.joints[j].coordinates[c].initial_velocity.is_zero())
-          list[*entry] = true;
-    prefer_leaders(list);
-    return list;
-  }
-
-  /// Where coordinates follow others these are preferred, and what no loop holds.
-  void prefer_leaders(std::vector<bool>& list) const {
-    const std::vector<std::size_t> following = followers();
-    if (following.empty()) return;
-    for (std::size_t k = 0; k < list.size(); ++k) {
-      const auto is_still = [&](const Matrix& G) { return G.col(at(k)).isZero(0); };
-      if (std::all_of(jacobians_.begin(), jacobians_.end(), is_still)) list[k] = true;
-    }
-    for (const model::Loop& loop : mechanism_.loops)
-      for (const model::Expression::Node& node : loop.residual.nodes())
-        if (loop.follower && node.op == model::Expression::Op::kVariable)
-          if (const auto entry = layout_.joints[node.variable.index].velocity[node.variable.component])
-            list[*entry] = true;
-    for (const std::size_t k : following) list[k] = false;
-  }
-
-  /// Velocities of coordinates that are left to follow another one.
-  std::vector<std::size_t> followers() const {
-    std::vector<std::size_t> list;
-    for (const model::Loop& loop : mechanism_.loops)
-      if (loop.follower)
-        if (const auto entry = layout_.joints[loop.follower->joint.value].velocity[loop.follower->coordinate])
-          list.push_back(*entry);
-    return list;
   }
 
   /// Without freedom all positions follow from time; multipliers are left for what is singular on the way.
@@ -223,19 +182,47 @@ class Planner {
     return true;
   }
 
+  /// Multipliers meet constraints of velocities, all coordinates are kept; where the description asks for it velocities
+  /// follow from independent ones, which must be proven.
+  bool treat_velocities() {
+    const model::LoopOptions& options = mechanism_.loop_options;
+    plan_.reason = "constraints of velocities leave positions free";
+    if (!plan_.is_named || options.treatment == LoopTreatment::kMultipliers) return true;
+    const std::optional<Partition> partition = partition_of_velocities();
+    if (!options.independent.empty() && !partition) return report_bad({});
+    std::string why = why_not_reduced(constraints_, plan_.rows, partition, mechanism_);
+    if (why.empty()) {
+      take(*partition);
+      plan_.reason.clear();
+      if (close_explicitly()) return true;
+      why = explicit_failure_;
+    }
+    diagnostics_.error(options.where, "velocities are not proven to follow from independent ones", why);
+    return false;
+  }
+
+  std::optional<Partition> partition_of_velocities() const {
+    const std::vector<Matrix> regular = regular_jacobians(), open = open_jacobians();
+    const std::vector<std::size_t> named = named_independent();
+    if (!named.empty()) return given_partition(regular, open, named);
+    return choose_with_velocities(regular, open, bind_positions(constraints_, plan_.rows),
+                                  velocity_groups(mechanism_), preferred_velocities(mechanism_, jacobians_));
+  }
+
   /// Those that may be closed: the one that is named; otherwise the one that is conditioned best, and the one
   /// of the coordinates with a range, over which more can be proven.
   std::vector<Partition> partitions() const {
     const std::vector<Matrix> regular = regular_jacobians(), open = open_jacobians();
     const std::vector<std::size_t> named = named_independent();
-    const std::vector<std::size_t> following = followers();
+    const std::vector<std::size_t> following = following_velocities(mechanism_);
     const bool all_follow = named.empty() && following.size() == plan_.rows.size() && !following.empty();
     std::optional<Partition> best;
     if (!named.empty()) best = given_partition(regular, open, named);
     if (all_follow)
       best = given_partition(regular, open, loops::all_but(following, layout_.velocity_count()));
     if (named.empty() && (!best || best->blocks.empty()))
-      best = choose_partition(regular, open, velocity_groups(mechanism_), preferred());
+      best = choose_partition(regular, open, velocity_groups(mechanism_),
+                              preferred_velocities(mechanism_, jacobians_));
     if (!best) return {};
     std::vector<Partition> list = {*best};
     const std::vector<std::size_t> ranged = with_range();
@@ -262,8 +249,10 @@ class Planner {
     plan_.independent = partition.independent;
     plan_.blocks = partition.blocks;
     plan_.conditioning = partition.conditioning;
-    for (Block& block : plan_.blocks)
+    for (Block& block : plan_.blocks) {
       for (std::size_t& row : block.rows) row = plan_.rows[row];
+      block.binds_positions = bind_positions(constraints_, block.rows).front();
+    }
     plan_.treatment = LoopTreatment::kPartitioned;
   }
 
@@ -341,7 +330,11 @@ class Planner {
   void take_orders(const ClosedForm& form) {
     for (std::size_t b = 0; b < plan_.blocks.size(); ++b) {
       const Elimination order = elimination_of(plan_.blocks[b]);
-      if (!order.rows.empty() && form.has_pivots[b]) plan_.blocks[b] = {order.rows, order.columns, true};
+      if (!order.rows.empty() && form.has_pivots[b]) {
+        plan_.blocks[b].rows = order.rows;
+        plan_.blocks[b].dependents = order.columns;
+        plan_.blocks[b].in_order = true;
+      }
     }
   }
 

@@ -9,12 +9,18 @@ namespace jourdain::loops {
 
 namespace {
 
+std::vector<std::string> velocity_names(const std::vector<std::size_t>& velocities,
+                                        const model::CoordinateLayout& layout) {
+  std::vector<std::string> names;
+  for (const std::size_t k : velocities) names.push_back(layout.velocity_names[k]);
+  return names;
+}
+
 /// Who is independent, as the beginning of a sentence.
 std::string independent_text(const LoopPlan& plan, const model::CoordinateLayout& layout) {
   if (plan.independent.empty()) return "all coordinates follow from time, ";
-  std::vector<std::string> names;
-  for (const std::size_t k : plan.independent) names.push_back(layout.velocity_names[k]);
-  return fmt::format("independent: {}; the others ", fmt::join(names, ", "));
+  return fmt::format("independent: {}; the others ",
+                     fmt::join(velocity_names(plan.independent, layout), ", "));
 }
 
 std::string at_defaults(const std::vector<std::string>& parameters) {
@@ -36,6 +42,31 @@ std::string regularity_text(const LoopPlan& plan) {
       "slides over {:.2g} m) end within {:.1g} of the branch, no other solution is within {:.1g} of it",
       proof.region.empty() ? "" : " for ", proof.region, at_defaults(proof.at_defaults), proof.margin,
       proof.radius, proof.length, proof.ends_within, proof.isolation);
+}
+
+/// With what is carried along.
+std::string explicit_text(const LoopPlan& plan, const model::CoordinateLayout& layout) {
+  const ClosedForm& form = *plan.closed_form;
+  const std::string at = at_defaults(form.at_defaults);
+  const std::vector<std::size_t> carried = plan.carried();
+  const bool closes = plan.z.size() - plan.independent.size() > carried.size();
+  std::string text;
+  if (closes)
+    text = fmt::format(
+        "in closed form, on the branch of the initial state. Proven: it exists everywhere in the declared "
+        "ranges{}; every discriminant is {:.2g} or more (the square of the sine of the angle from a dead "
+        "position)",
+        at, form.smallest_margin);
+  if (carried.empty()) return text;
+  const std::string names = fmt::format("{}", fmt::join(velocity_names(carried, layout), ", "));
+  return text +
+         (closes ? fmt::format("; velocities of {} follow, ", names)
+                 : fmt::format("({}) in their velocities, ", names)) +
+         fmt::format(
+             "their positions are carried along. Proven: what is solved for these velocities is regular "
+             "everywhere "
+             "in the declared ranges{}, its determinant {:.2g} or more of that at the start",
+             at, form.least_determinant);
 }
 
 std::vector<std::string> names_of(const model::Mechanism& mechanism, const std::vector<std::size_t>& rows) {
@@ -64,12 +95,7 @@ std::vector<std::string> sentences(const model::Mechanism& mechanism, const Loop
   const std::string independent = independent_text(plan, layout);
   switch (plan.treatment) {
     case model::LoopTreatment::kExplicit:
-      list.push_back(fmt::format(
-          "{}in closed form, on the branch of the initial state. Proven: it exists everywhere in the "
-          "declared "
-          "ranges{}; every discriminant is {:.2g} or more (the square of the sine of the angle from a dead "
-          "position)",
-          independent, at_defaults(plan.closed_form->at_defaults), plan.closed_form->smallest_margin));
+      list.push_back(independent + explicit_text(plan, layout));
       break;
     case model::LoopTreatment::kPartitioned:
       list.push_back(fmt::format("{}by {} Newton iteration{} at the end of a step. {}", independent,

@@ -136,11 +136,9 @@ bool check_velocities(const model::Mechanism& mechanism, const NumericClosure& c
                       const std::vector<Configuration>& configurations, const std::vector<std::size_t>& kept,
                       support::Diagnostics& diagnostics) {
   const model::LoopOptions& options = mechanism.loop_options;
-  const bool asked = options.treatment && *options.treatment != model::LoopTreatment::kMultipliers;
-  if (asked || !options.independent.empty()) {
-    diagnostics.error(options.where,
-                      "constraints of velocities are met by multipliers, all coordinates are kept",
-                      "leave 'treatment' and 'independent' out");
+  if (options.treatment == model::LoopTreatment::kPartitioned) {
+    diagnostics.error(options.where, "constraints of velocities are not met by iterations",
+                      "treatment may be \"multipliers\" or, with independent velocities, \"explicit\"");
     return false;
   }
   if (!check_searches(mechanism, closure, configurations, diagnostics)) return false;

@@ -1,4 +1,4 @@
-// Rows that bind velocities alone: multipliers meet them, and all coordinates are kept.
+// Rows that bind velocities alone.
 #pragma once
 
 #include <vector>
@@ -17,7 +17,7 @@ std::vector<std::size_t> kept_rows(const NumericClosure& closure,
                                    const std::vector<Configuration>& configurations,
                                    const std::vector<Matrix>& jacobians);
 
-/// False after a diagnostic: no treatment but multipliers may be asked for, and at each configuration those rows that
+/// False after a diagnostic: Newton's iterations may not be asked for, and at each configuration those rows that
 /// are not kept must follow from `kept`, what they ask of velocities too. They may do so at the start and not
 /// elsewhere, or later, or but for the digits of the file. What touches the ground must be found at the start.
 bool check_velocities(const model::Mechanism& mechanism, const NumericClosure& closure,

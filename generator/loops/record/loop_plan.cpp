@@ -18,6 +18,14 @@ std::vector<std::size_t> LoopPlan::solved_rows() const {
   return solved;
 }
 
+std::vector<std::size_t> LoopPlan::carried() const {
+  std::vector<std::size_t> list;
+  for (const Block& block : blocks)
+    if (!block.binds_positions) list.insert(list.end(), block.dependents.begin(), block.dependents.end());
+  std::sort(list.begin(), list.end());
+  return list;
+}
+
 double LoopPlan::least_regularity() const {
   switch (treatment) {
     case LoopTreatment::kExplicit:

@@ -22,7 +22,8 @@ struct Moved {
 /// Rows that determine dependent velocities of the tree, once those of earlier blocks are known. Square.
 struct Block {
   std::vector<std::size_t> rows, dependents;
-  bool in_order = false;  ///< elimination in this order is proven to find no pivot that vanishes
+  bool in_order = false;        ///< elimination in this order is proven to find no pivot that vanishes
+  bool binds_positions = true;  ///< the rows have a position form; all of them or none
 };
 
 struct LoopPlan {
@@ -59,6 +60,8 @@ struct LoopPlan {
   int iterations = 2;
   double stabilisation = 0;  ///< 1/s
 
+  /// Dependent velocities of rows without a position form, in order: the positions are not closed, they move freely.
+  std::vector<std::size_t> carried() const;
   /// Calls of close_loops where dependent positions were not integrated along.
   int closings() const { return treatment == model::LoopTreatment::kPartitioned ? 2 : 1; }
   /// For which positions and parameters the treatment is proven; none: not proven, or nothing to prove.

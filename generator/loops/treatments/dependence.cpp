@@ -40,11 +40,12 @@ Dependence::Dependence(ir::Builder& builder, const LoopSystem& system)
   beta_ = dependents(constraint_rates(builder, system, z_).gamma, beta_);
 }
 
-/// Solves G x + rows = 0 for the dependent entries of x.
-Column Dependence::dependents(Column rows, const Column& known) const {
+/// Solves G x + rows = 0 for the dependent entries of x, or for those that are closed.
+Column Dependence::dependents(const Column& rows, const Column& known, bool positions_alone) const {
   Column x = known;
   for (std::size_t b = 0; b < solvers_.size(); ++b) {
     const Block& block = system_.plan.blocks[b];
+    if (positions_alone && !block.binds_positions) continue;
     Column right;
     for (const std::size_t r : block.rows) {
       Signed sum = rows[r];
@@ -56,6 +57,29 @@ Column Dependence::dependents(Column rows, const Column& known) const {
     for (std::size_t i = 0; i < solution.size(); ++i) x[block.dependents[i]] = solution[i];
   }
   return x;
+}
+
+std::vector<Column> Dependence::displacements() const {
+  const std::vector<std::size_t> carried = system_.plan.carried();
+  if (carried.empty()) return B_;
+  const std::size_t n = z_.size();
+  const Column nothing(system_.constraints.value.outputs.size(), builder_.literal(0));
+  std::vector<Column> columns;
+  for (const std::vector<std::size_t>& moved : {independent_, carried})
+    for (const std::size_t k : moved) {
+      Column known(n, builder_.literal(0));
+      known[k] = builder_.literal(1);
+      columns.push_back(dependents(nothing, known, true));
+    }
+  return columns;
+}
+
+Column Dependence::drift() const {
+  if (system_.plan.carried().empty()) return b_;
+  Column opening;
+  for (std::size_t r = 0; r < system_.constraints.value.outputs.size(); ++r)
+    opening.push_back(values_.g_t(r));
+  return dependents(opening, Column(z_.size(), builder_.literal(0)), true);
 }
 
 Column Dependence::accelerations(const Column& zdot) const {

@@ -13,8 +13,16 @@ class Dependence {
   std::size_t independent_count() const { return independent_.size(); }
   /// Column of B by independent velocity; entries by velocity of the tree.
   const std::vector<Column>& B() const { return B_; }
-  const Column& z() const { return z_; }        ///< of the tree, from the leaves z
-  const Column& b() const { return b_; }        ///< part of z that is driven
+  const Column& z() const { return z_; }  ///< of the tree, from the leaves z
+  const Column& b() const { return b_; }  ///< part of z that is driven
+
+  /// How the tree is displaced as rows of positions stay closed: columns by displacement, of the independent
+  /// coordinates, then of those carried along (LoopPlan::carried); entries by velocity of the tree. B where nothing is
+  /// carried.
+  std::vector<Column> displacements() const;
+  /// What time adds to that, per second.
+  Column drift() const;
+
   const Column& beta() const { return beta_; }  ///< bias of the accelerations
 
   /// B zdot + β.
@@ -25,7 +33,7 @@ class Dependence {
   Column multipliers(Column forces) const;
 
  private:
-  Column dependents(Column rows, const Column& known) const;
+  Column dependents(const Column& rows, const Column& known, bool positions_alone = false) const;
 
   ir::Builder& builder_;
   const LoopSystem& system_;

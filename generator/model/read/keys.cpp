@@ -303,7 +303,7 @@ KeySection loops_section() {
       "loops",
       "[loops]",
       "How loops are closed; what is left out is chosen.",
-      {{"treatment", "\"explicit\", \"partitioned\", \"multipliers\"", "", "the first that is proven", ""},
+      {{"treatment", "\"explicit\", \"partitioned\", \"multipliers\"", "", "the first that is proven; multipliers where constraints bind velocities", ""},
        {"independent", "list of names", "", "chosen", "coordinates that the others follow from"},
        {"iterations", "constant", "", "2", "of Newton's method at the end of a step"},
        {"stabilisation", "constant", "1/s", "0", "multipliers: damps what opens between projections"}},

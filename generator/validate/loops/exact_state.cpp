@@ -17,13 +17,22 @@ using support::at;
 
 ExactClosure::ExactClosure(const model::Mechanism& mechanism, const dynamics::Equations& closures,
                            const loops::LoopPlan& plan)
-    : closures_(closures), plan_(plan) {
+    : closures_(closures) {
   const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
   tangent_ = layout.tangent;
   velocities_ = layout.velocity_count();
-  for (std::size_t k = 0; plan.is_reduced() && k < velocities_; ++k)
-    if (std::find(plan.independent.begin(), plan.independent.end(), k) == plan.independent.end())
-      dependents_.push_back(k);
+  carried_ = plan.carried();
+  const auto is_among = [](const std::vector<std::size_t>& list, std::size_t k) {
+    return std::find(list.begin(), list.end(), k) != list.end();
+  };
+  for (std::size_t k = 0; plan.is_reduced() && k < velocities_; ++k) {
+    if (is_among(plan.independent, k)) continue;
+    dependents_.push_back(k);
+    if (!is_among(carried_, k)) closed_.push_back(k);
+  }
+  for (const loops::Block& block : plan.blocks)
+    if (block.binds_positions)
+      closing_rows_.insert(closing_rows_.end(), block.rows.begin(), block.rows.end());
 }
 
 dynamics::ClosureJacobian ExactClosure::jacobian(const ir::LeafValues<ScaledReal>& state) const {
@@ -71,14 +80,14 @@ std::vector<ScaledReal> ExactClosure::displaced(std::vector<ScaledReal> y, const
 ir::LeafValues<ScaledReal> ExactClosure::closed(ir::LeafValues<ScaledReal> state) const {
   constexpr int kSteps = 12;
   const ScaledReal enough = 1e-70;
-  for (int i = 0; i < kSteps && !dependents_.empty(); ++i) {
+  for (int i = 0; i < kSteps && !closed_.empty(); ++i) {
     const dynamics::ClosureJacobian at_state = jacobian(state);
-    const ExactVector open = to_exact(at_state.g)(plan_.rows);
+    const ExactVector open = to_exact(at_state.g)(closing_rows_);
     if (open.cwiseAbs().maxCoeff() < enough) break;
-    const ExactMatrix D = to_exact(at_state.G, velocities_)(plan_.rows, dependents_);
+    const ExactMatrix D = to_exact(at_state.G, velocities_)(closing_rows_, closed_);
     const ExactVector change = solved(D, -open);
     ExactVector d = ExactVector::Zero(at(velocities_));
-    d(dependents_) = change;
+    d(closed_) = change;
     state[LeafKind::kPosition] = displaced(state[LeafKind::kPosition], d);
   }
   // Its rounding is that of a closed state, not of the way to it.

@@ -23,6 +23,9 @@ class ExactClosure {
   std::size_t velocity_count() const { return velocities_; }
   /// Velocities that depend on others.
   const std::vector<std::size_t>& dependents() const { return dependents_; }
+  /// Of those: whose positions close rows, and whose positions move freely.
+  const std::vector<std::size_t>& closed_velocities() const { return closed_; }
+  const std::vector<std::size_t>& carried() const { return carried_; }
 
   /// g, G and g_t
   dynamics::ClosureJacobian jacobian(const ir::LeafValues<ScaledReal>& state) const;
@@ -40,15 +43,15 @@ class ExactClosure {
   /// The positions moved by a displacement of all velocities: q ⊗ (1, d/2), brought to unit length.
   std::vector<ScaledReal> displaced(std::vector<ScaledReal> y, const ExactVector& displacement) const;
 
-  /// The state with dependent positions that close plan.rows, by Newton's method from where they are.
+  /// The state with dependent positions that close the rows of positions, by Newton's method from where they are.
   ir::LeafValues<ScaledReal> closed(ir::LeafValues<ScaledReal> state) const;
 
  private:
   const dynamics::Equations& closures_;
-  const loops::LoopPlan& plan_;
   model::Tangent tangent_;
   std::size_t velocities_;
-  std::vector<std::size_t> dependents_;
+  std::vector<std::size_t> dependents_, closed_, carried_;
+  std::vector<std::size_t> closing_rows_;
 };
 
 }  // namespace jourdain::validate

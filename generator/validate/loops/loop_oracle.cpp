@@ -318,8 +318,14 @@ std::vector<ScaledReal> LoopOracle::start(const ir::Program& program) const {
 /// Of a coordinate the velocity's change; of a rotation δθ̇ = δω − ω × δθ.
 std::vector<ScaledReal> LoopOracle::displacement_rate() const {
   const dynamics::ExactDirection& d = point_.direction;
+  const std::vector<std::size_t>& carried = scene_.closure.carried();
   std::vector<ScaledReal> rate = d.velocity;
-  rate.resize(d.displacement.size());
+  const std::size_t moving = d.displacement.size() - carried.size();
+  rate.resize(moving);
+  if (!carried.empty())
+    for (const ScaledReal& entry :
+         change([&](const LoopOracle& o) { return ExactVector(o.e_.z(carried)); }, true))
+      rate.push_back(entry);
   const std::vector<std::size_t>& independent = scene_.plan.independent;
   const auto place = [&](std::size_t velocity) {
     if (!scene_.plan.is_reduced()) return velocity;
@@ -328,7 +334,7 @@ std::vector<ScaledReal> LoopOracle::displacement_rate() const {
   };
   for (const model::Tangent::Scalar& s : scene_.closure.tangent().quaternions) {
     const std::size_t first = place(s.velocity);
-    for (std::size_t k = 0; k < 3 && first < rate.size(); ++k) {
+    for (std::size_t k = 0; k < 3 && first < moving; ++k) {
       const std::size_t j = (k + 1) % 3, l = (k + 2) % 3;
       rate[first + k] -= e_.z[at(s.velocity + j)] * d.displacement[first + l] -
                          e_.z[at(s.velocity + l)] * d.displacement[first + j];
@@ -345,11 +351,15 @@ std::vector<ScaledReal> LoopOracle::change(const Numbers& numbers, bool with_inp
     const dynamics::ExactDirection& d = point_.direction;
     Point there = point_;
     ExactVector displacement = ExactVector::Zero(at(scene_.closure.velocity_count()));
+    const std::vector<std::size_t>& carried = scene_.closure.carried();
+    const std::size_t moving = d.displacement.size() - carried.size();
+    for (std::size_t c = 0; c < carried.size(); ++c)
+      displacement[at(carried[c])] = step * d.displacement[moving + c];
     const auto entry = [&](std::size_t j) {
       return at(scene_.plan.is_reduced() ? scene_.plan.independent[j] : j);
     };
     for (std::size_t j = 0; j < d.velocity.size(); ++j) {
-      if (j < d.displacement.size()) displacement[entry(j)] = step * d.displacement[j];
+      if (j < moving) displacement[entry(j)] = step * d.displacement[j];
       there.exact[LeafKind::kVelocity][j] += step * d.velocity[j];
     }
     std::vector<ScaledReal>& y = there.exact[LeafKind::kPosition];

@@ -44,7 +44,7 @@ std::vector<Ray> draw_rays(const loops::NumericClosure& closure, const loops::Lo
         ray.z.push_back(static_cast<double>(z[at(k)]));
     fill(ray.zdot, ray.z.size(), 5);
     fill(ray.u, layout.input_count(), 5);
-    fill(ray.displacement, ray.z.size() - layout.state_count, 1);
+    fill(ray.displacement, ray.z.size() - layout.state_count + plan.carried().size(), 1);
     fill(ray.velocity, ray.z.size(), 1);
     fill(ray.input, layout.input_count(), 1);
     if (model::time_dependence(mechanism).any()) ray.time = uniform(-1, 1);

@@ -96,7 +96,7 @@ Point opened(Point point, const LoopScene& scene, double size) {
   ExactVector off = ExactVector::Zero(at(n));
   const auto amount = [size](std::size_t k) { return size * std::cos(3.0 * static_cast<double>(k) + 1); };
   if (scene.plan.is_reduced())
-    for (const std::size_t k : scene.closure.dependents()) off[at(k)] = amount(k);
+    for (const std::size_t k : scene.closure.closed_velocities()) off[at(k)] = amount(k);
   for (std::size_t k = 0; k < n && !scene.plan.is_reduced(); ++k) {
     off[at(k)] = amount(k);
     point.exact[LeafKind::kVelocity][k] += off[at(k)];

@@ -1,0 +1,20 @@
+// Which velocities are rather independent than others.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "loops/rows/configuration.hpp"
+#include "model/mechanism.hpp"
+
+namespace jourdain::loops {
+
+/// By velocity of the tree: coordinates that are driven, that the description starts with a velocity, or that others
+/// follow.
+std::vector<bool> preferred_velocities(const model::Mechanism& mechanism,
+                                       const std::vector<Matrix>& jacobians);
+
+/// Velocities of coordinates that are left to follow another one.
+std::vector<std::size_t> following_velocities(const model::Mechanism& mechanism);
+
+}  // namespace jourdain::loops
