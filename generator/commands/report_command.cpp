@@ -17,6 +17,7 @@
 #include "loops/plan/plan_text.hpp"
 #include "model/coordinates.hpp"
 #include "model/joint_kinds.hpp"
+#include "programs/displaced_tangent.hpp"
 #include "report/conserved_energy.hpp"
 #include "report/figure.hpp"
 #include "report/plot.hpp"
@@ -235,20 +236,21 @@ int run(ReportArguments arguments) {
         name);
     return kUsage;
   }
-  if (model->loaded.plan() && !model->loaded.plan()->carried().empty()) {
-    fmt::print(
-        stderr,
-        "error: velocities of '{}' follow from others whose positions do not; modes and limits of such "
-        "scenes are not reported. Use treatment = \"multipliers\" in [loops], and `jourdain simulate` for "
-        "the other\n",
-        name);
-    return kUsage;
-  }
   const std::string folder = arguments.folder.empty() ? name + "_report" : arguments.folder;
   support::check_writable(folder);
   if (arguments.plots) report::check_plotter();
   const std::size_t velocities = model->loaded.velocity_count();
-  if (arguments.methods.empty()) arguments.methods = default_methods(terms_of(arguments), velocities);
+  const auto conflict = [&](const std::vector<std::string>& methods) {
+    return check_steps(methods, model->loaded);
+  };
+  if (arguments.methods.empty()) {
+    arguments.methods = default_methods(terms_of(arguments), velocities);
+    std::erase_if(arguments.methods, [&](const std::string& method) { return !conflict({method}).empty(); });
+  }
+  if (const std::string why = conflict(arguments.methods); !why.empty()) {
+    fmt::print(stderr, "error: {}\n", why);
+    return kUsage;
+  }
   if (velocities == 0) {
     fmt::print(stderr, "error: '{}' has no degree of freedom: nothing is integrated\n", name);
     return kModelWrong;
@@ -263,7 +265,9 @@ int run(ReportArguments arguments) {
   }
   CompileOptions options = model->loaded.options;
   options.functions = loadable_functions(arguments.methods);
-  if (velocities <= kMostVelocities) options.functions.push_back("forward_dynamics_derivatives");
+  // With what is carried along there are more displacements than its derivatives have in the table of a model.
+  const bool carries = model->loaded.plan() && !model->loaded.plan()->carried().empty();
+  if (velocities <= kMostVelocities && !carries) options.functions.push_back("forward_dynamics_derivatives");
   const CompiledModel compiled = compile(figure.mechanism, options);
   if (!compiled.verdict.accepted()) return refuse(model->loaded, compiled.verdict);
   bar.show("deriving the equations of the first kind", 0);
@@ -280,8 +284,8 @@ int run(ReportArguments arguments) {
   studies::Flow<double> flow(table, *inputs->inputs);
   flow.set_start(inputs->start);
   if (!check_closed(*model, flow)) return kModelWrong;
-  const studies::Study study =
-      make_study(arguments, *model, *inputs, compiled.facts.tangent, flow, long_table, free, bar);
+  const studies::Study study = make_study(
+      arguments, *model, *inputs, programs::displaced_tangent(compiled.facts), flow, long_table, free, bar);
   write_report(arguments, folder, head_of(arguments, model->loaded, inputs->what), flow, study, figure, bar);
   return kSuccess;
 }

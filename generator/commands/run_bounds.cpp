@@ -138,7 +138,7 @@ bool is_singular(const Flow<double>& flow, const Point<double>& point, double h)
 
 }  // namespace
 
-std::string breach_text(const Flow<double>& flow, const programs::SceneFacts& facts, const Breach& breach,
+std::string breach_text(const Flow<double>& flow, const model::Tangent& tangent, const Breach& breach,
                         const std::string& method, double h) {
   if (breach.of_loops) return fmt::format("error: {}\n", breach.what);
   if (is_singular(flow, breach.last, h))
@@ -147,11 +147,8 @@ std::string breach_text(const Flow<double>& flow, const programs::SceneFacts& fa
         "there, or "
         "a force has no value\n",
         breach.last.t);
-  std::string why;
-  if (facts.carried.empty()) {  // otherwise its linearisation is not all there is
-    why = step_limit_text(flow, flow.start(), facts.tangent, method, h);
-    if (why.empty()) why = step_limit_text(flow, breach.last, facts.tangent, method, h);
-  }
+  std::string why = step_limit_text(flow, flow.start(), tangent, method, h);
+  if (why.empty()) why = step_limit_text(flow, breach.last, tangent, method, h);
   const std::string verdict =
       why.empty() ? "may be too long"
                   : fmt::format("is too long: {}; take a shorter one or --method rodas4", why);

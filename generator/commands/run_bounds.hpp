@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "programs/scene_facts.hpp"
+#include "model/coordinates.hpp"
 #include "studies/flow.hpp"
 
 namespace jourdain::commands {
@@ -47,8 +47,8 @@ struct Breach {
 /// The error message: where and how, and why. Either rates are not finite at `last` or half a step or one from
 /// there, so that the equations are singular, or the step is too long: for a mode of the linearisation at the
 /// start or at `last` that `method` cannot follow, where there is one. Modes slower than 1/2 in a step are not
-/// judged, and none where coordinates are carried along. `h` is the step, s.
-std::string breach_text(const studies::Flow<double>& flow, const programs::SceneFacts& facts,
+/// judged. `tangent` is displaced_tangent of the scene, `h` the step, s.
+std::string breach_text(const studies::Flow<double>& flow, const model::Tangent& tangent,
                         const Breach& breach, const std::string& method, double h);
 
 }  // namespace jourdain::commands

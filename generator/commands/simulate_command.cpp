@@ -18,6 +18,7 @@
 #include "commands/run_setup.hpp"
 #include "commands/signal_choice.hpp"
 #include "commands/signal_plot.hpp"
+#include "programs/displaced_tangent.hpp"
 #include "report/conserved_energy.hpp"
 #include "report/plot.hpp"
 #include "studies/flow.hpp"
@@ -242,7 +243,8 @@ int run(const SimulateArguments& arguments) {
       Simulation(flow, arguments, conserves, signals, *selection, guard ? &*guard : nullptr).run(steps, csv);
   if (result.breach) {
     fmt::print(stderr, "{}",
-               breach_text(flow, compiled.facts, *result.breach, arguments.method, arguments.step));
+               breach_text(flow, programs::displaced_tangent(compiled.facts), *result.breach,
+                           arguments.method, arguments.step));
     return kModelWrong;
   }
   const std::string picture =

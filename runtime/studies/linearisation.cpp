@@ -61,24 +61,33 @@ MatrixXd emitted_linearisation(const Flow<double>& flow, const Point<double>& po
   return A;
 }
 
-/// Of ż by displacements of the independent coordinates, the loops closed after each, by Richardson's extrapolation of
-/// central differences.
+/// Entries of x that change by themselves beside displacements: coordinates that are carried along, then z.
+std::vector<std::size_t> free_entries(const Flow<double>& flow, const model::Tangent& tangent) {
+  const auto nz = static_cast<std::size_t>(flow.table().velocity_count);
+  std::vector<std::size_t> entries;
+  for (const model::Tangent::Scalar& s : tangent.scalars)
+    if (s.velocity >= nz) entries.push_back(s.position);
+  for (std::size_t i = flow.position_count(); i < flow.size(); ++i) entries.push_back(i);
+  return entries;
+}
+
+/// Of their rates by all displacements, the loops closed after each, by Richardson's extrapolation of central
+/// differences.
 MatrixXd by_closed_displacements(const Flow<double>& flow, const Point<double>& point,
-                                 const model::Tangent& tangent) {
-  const auto nz = static_cast<Index>(flow.table().velocity_count);
-  const auto slope = [&](std::size_t velocity, double delta) {
-    const auto zdot = [&](double change) {
-      const Point<double> at = flow.closed(moved_along(point, tangent, velocity, change));
-      const std::vector<double> rates = flow.rates(at.t, at.x);
-      return VectorXd(Eigen::Map<const VectorXd>(rates.data() + flow.position_count(), nz));
+                                 const model::Tangent& tangent, const std::vector<std::size_t>& entries) {
+  const auto slope = [&](std::size_t direction, double delta) {
+    const auto rates = [&](double change) {
+      const Point<double> at = flow.closed(moved_along(point, tangent, direction, change));
+      const std::vector<double> all = flow.rates(at.t, at.x);
+      return VectorXd(Eigen::Map<const VectorXd>(all.data(), static_cast<Index>(all.size()))(entries));
     };
-    return VectorXd((zdot(delta) - zdot(-delta)) / (2 * delta));
+    return VectorXd((rates(delta) - rates(-delta)) / (2 * delta));
   };
   const double delta = std::pow(2 * flow.table().unit_roundoff, 0.2);
-  MatrixXd result(nz, nz);
-  for (Index k = 0; k < nz; ++k) {
-    const auto velocity = static_cast<std::size_t>(k);
-    result.col(k) = (4 * slope(velocity, delta / 2) - slope(velocity, delta)) / 3;
+  MatrixXd result(static_cast<Index>(entries.size()), displacement_count(flow, tangent));
+  for (Index k = 0; k < result.cols(); ++k) {
+    const auto direction = static_cast<std::size_t>(k);
+    result.col(k) = (4 * slope(direction, delta / 2) - slope(direction, delta)) / 3;
   }
   return result;
 }
@@ -88,10 +97,12 @@ MatrixXd by_closed_displacements(const Flow<double>& flow, const Point<double>& 
 MatrixXd linearisation(const Flow<double>& flow, const Point<double>& point, const model::Tangent& tangent) {
   if (flow.table().derivatives) return emitted_linearisation(flow, point);
   if (flow.has_loops() && !keeps_all_coordinates(flow, tangent)) {
-    const auto nz = static_cast<Index>(flow.table().velocity_count);
-    MatrixXd A(2 * nz, 2 * nz);
-    A << MatrixXd::Zero(nz, nz), MatrixXd::Identity(nz, nz), by_closed_displacements(flow, point, tangent),
-        extrapolated_jacobian(flow, point).bottomRightCorner(nz, nz);
+    const std::vector<std::size_t> entries = free_entries(flow, tangent);
+    const Index nz = flow.table().velocity_count, rest = static_cast<Index>(entries.size());
+    MatrixXd A = MatrixXd::Zero(nz + rest, rest + nz);
+    A.block(0, rest, nz, nz).setIdentity();
+    A.bottomLeftCorner(rest, rest) = by_closed_displacements(flow, point, tangent, entries);
+    A.bottomRightCorner(rest, nz) = extrapolated_jacobian(flow, point)(entries, Eigen::lastN(nz));
     return A;
   }
   MatrixXd J = extrapolated_jacobian(flow, point);

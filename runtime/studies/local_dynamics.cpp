@@ -22,7 +22,8 @@ MatrixXd kept(const MatrixXd& rates, const LocalCoordinates& coordinates) {
   MatrixXd result(static_cast<Index>(rows.size()), rates.cols());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const bool of_velocity = i >= coordinates.displacements.size();
-    result.row(Index(i)) = rates.row(static_cast<Index>(rows[i]) + (of_velocity ? rates.rows() / 2 : 0));
+    result.row(Index(i)) =
+        rates.row(static_cast<Index>(rows[i]) + (of_velocity ? coordinates.all_displacements : 0));
   }
   return result;
 }
@@ -43,7 +44,8 @@ VectorXd mass_times(const Flow<double>& flow, const Point<double>& point, const 
 double log_inertia(const Flow<double>& flow, const Point<double>& point,
                    const LocalCoordinates& coordinates) {
   const auto n = static_cast<Index>(coordinates.velocities.size());
-  const MatrixXd B = coordinates.embedding.bottomRightCorner(coordinates.embedding.rows() / 2, n);
+  const MatrixXd& all = coordinates.embedding;
+  const MatrixXd B = all.bottomRightCorner(all.rows() - coordinates.all_displacements, n);
   MatrixXd MB(B.rows(), n);
   for (Index i = 0; i < n; ++i) MB.col(i) = mass_times(flow, point, B.col(i));
   return std::log(std::fabs(reference::determinant<double>(B.transpose() * MB)));
@@ -57,10 +59,13 @@ double shrinking(const Flow<double>& flow, const Local& local, const model::Tang
   for (std::size_t i = positions; i < flow.size(); ++i) speed = std::max(speed, std::fabs(local.point->x[i]));
   if (speed == 0) return -local.A.trace();
   const double time = std::cbrt(flow.table().unit_roundoff) / speed;
+  const std::vector<double> rates = flow.rates(local.point->t, local.point->x);
   const auto after = [&](double dt) {
     Point<double> moved = *local.point;
     for (std::size_t i = positions; i < flow.size(); ++i)
       moved = moved_along(moved, tangent, i - positions, dt * local.point->x[i]);
+    for (const model::Tangent::Scalar& s : tangent.scalars)
+      if (s.velocity >= flow.size() - positions) moved.x[s.position] += dt * rates[s.position];
     moved = flow.closed(std::move(moved));
     const LocalCoordinates there = local_coordinates(flow, moved, tangent);
     return log_inertia(flow, moved, there.rows() == local.coordinates.rows() ? there : local.coordinates);

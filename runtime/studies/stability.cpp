@@ -31,7 +31,17 @@ StabilityPoint point_of(const Local& local, const Scene& scene) {
   return point;
 }
 
-void name_owners(const Flow<double>& flow, const std::vector<Local>& locals, Stability& result) {
+/// Of displacements by direction: of the velocities, then of coordinates that are carried along.
+std::vector<std::string> names_of(const Flow<double>& flow, const model::Tangent& tangent) {
+  const jourdain_model_table& table = flow.table();
+  std::vector<std::string> names(table.velocity_names, table.velocity_names + table.velocity_count);
+  for (const model::Tangent::Scalar& s : tangent.scalars)
+    if (s.velocity >= static_cast<std::size_t>(table.velocity_count))
+      names.emplace_back(table.position_names[s.position]);
+  return names;
+}
+
+void name_owners(const std::vector<std::string>& names, const std::vector<Local>& locals, Stability& result) {
   for (const Local& local : locals)
     for (const Complex mu : local.modes.values)
       if (mu.imag() >= 0 && std::abs(mu) > std::abs(result.fastest)) {
@@ -41,13 +51,12 @@ void name_owners(const Flow<double>& flow, const std::vector<Local>& locals, Sta
   const Local& local = local_at(locals, result.fastest_time);
   const Modes& modes = local.modes;
   const VectorXd shares = modes.participations.col(index_of(result.fastest, modes));
-  VectorXd by_entry = VectorXd::Zero(static_cast<Index>(flow.table().velocity_count));
+  VectorXd by_entry = VectorXd::Zero(static_cast<Index>(names.size()));
   const std::vector<std::size_t> entries = local.coordinates.rows();
   for (std::size_t i = 0; i < entries.size(); ++i)
     by_entry[static_cast<Index>(entries[i])] += shares[Index(i)];
   for (Index i = 0; i < by_entry.size(); ++i)
-    if (by_entry[i] >= kShownShare)
-      result.owners.push_back({flow.table().velocity_names[std::size_t(i)], by_entry[i]});
+    if (by_entry[i] >= kShownShare) result.owners.push_back({names[std::size_t(i)], by_entry[i]});
   std::stable_sort(result.owners.begin(), result.owners.end(),
                    [](const CoordinateShare& a, const CoordinateShare& b) { return a.share > b.share; });
 }
@@ -100,7 +109,7 @@ double growth_beyond(const StabilityFunction& function, const MethodLimit& limit
 VectorXd velocities_of(Complex mu, const Local& local) {
   const Eigen::MatrixXd& embedding = local.coordinates.embedding;
   const Eigen::VectorXcd x = embedding * local.modes.right.col(index_of(mu, local.modes));
-  const Eigen::VectorXcd z = x.tail(x.size() / 2);
+  const Eigen::VectorXcd z = x.tail(x.size() - local.coordinates.all_displacements);
   return z.real().norm() > z.imag().norm() ? VectorXd(z.real()) : VectorXd(z.imag());
 }
 
@@ -195,7 +204,7 @@ Stability study_stability(const Flow<double>& flow, const ReferenceSolution& ref
     result.limits.push_back(along.smallest);
     result.limits.back().method = static_cast<std::size_t>(m);
   }
-  name_owners(flow, locals, result);
+  name_owners(names_of(flow, tangent), locals, result);
   look_for_transients(flow, locals, scene, result);
   observe(flow, reference, locals, 3 * seconds / 4, result, progress);
   return result;

@@ -84,13 +84,20 @@ Eigen::Matrix<double, 4, 3> turning(const Eigen::Vector4d& q) {
   return m / 2;
 }
 
+Index displacement_count(const Flow<double>& flow, const model::Tangent& tangent) {
+  Index count = velocity_count(flow);
+  for (const model::Tangent::Scalar& s : tangent.scalars) count = std::max(count, Index(s.velocity) + 1);
+  return count;
+}
+
 std::size_t still_velocities(const Flow<double>& flow, const model::Tangent& tangent) {
-  return static_cast<std::size_t>(flow.table().velocity_count) - tangent.scalars.size() -
+  return static_cast<std::size_t>(displacement_count(flow, tangent)) - tangent.scalars.size() -
          3 * tangent.quaternions.size();
 }
 
 bool keeps_all_coordinates(const Flow<double>& flow, const model::Tangent& tangent) {
-  return flow.has_loops() && tangent.scalars.size() + 4 * tangent.quaternions.size() == flow.position_count();
+  return flow.has_loops() && displacement_count(flow, tangent) == velocity_count(flow) &&
+         tangent.scalars.size() + 4 * tangent.quaternions.size() == flow.position_count();
 }
 
 Point<double> moved_along(const Point<double>& point, const model::Tangent& tangent, std::size_t velocity,
@@ -111,11 +118,13 @@ LocalCoordinates local_coordinates(const Flow<double>& flow, const Point<double>
                                    const model::Tangent& tangent) {
   const Index nz = velocity_count(flow);
   LocalCoordinates result;
+  result.all_displacements = displacement_count(flow, tangent);
   if (!keeps_all_coordinates(flow, tangent)) {
     result.velocities.resize(static_cast<std::size_t>(nz));
+    result.displacements.resize(static_cast<std::size_t>(result.all_displacements));
     std::iota(result.velocities.begin(), result.velocities.end(), std::size_t(0));
-    result.displacements = result.velocities;
-    result.embedding = MatrixXd::Identity(2 * nz, 2 * nz);
+    std::iota(result.displacements.begin(), result.displacements.end(), std::size_t(0));
+    result.embedding = MatrixXd::Identity(result.all_displacements + nz, result.all_displacements + nz);
     return result;
   }
   const MatrixXd P = closing_jacobian(flow, point, tangent);

@@ -10,21 +10,26 @@
 
 namespace jourdain::studies {
 
+/// Directions in which positions that are not closed may be displaced: one for each entry of z, which may displace
+/// nothing, then those of coordinates that are carried along, whose tangent's velocities are beyond z.
+Eigen::Index displacement_count(const Flow<double>& flow, const model::Tangent& tangent);
+
 /// Last entries of z that displace nothing: states beside the mechanism.
 std::size_t still_velocities(const Flow<double>& flow, const model::Tangent& tangent);
 
 /// Whether every position counts in `tangent` though there are loops: multipliers hold them closed.
 bool keeps_all_coordinates(const Flow<double>& flow, const model::Tangent& tangent);
 
-/// `point` moved by `delta` along the tangent's velocity `velocity`; quaternions by a rotation, no loops closed.
+/// `point` moved by `delta` along the tangent's direction `velocity`; quaternions by a rotation, no loops closed.
 Point<double> moved_along(const Point<double>& point, const model::Tangent& tangent, std::size_t velocity,
                           double delta);
 
-/// Local coordinates of the closed states near one: the displacements and velocities of some entries of z. Where
+/// Local coordinates of the closed states near one: some displacements and velocities of some entries of z. Where
 /// constraints bind velocities alone there are more displacements than velocities.
 struct LocalCoordinates {
-  std::vector<std::size_t> displacements, velocities;  ///< entries of z
-  Eigen::MatrixXd embedding;  ///< 2nz × n: displacements and velocities of all entries by the coordinates
+  std::vector<std::size_t> displacements, velocities;  ///< directions; entries of z
+  Eigen::MatrixXd embedding;           ///< all displacements, then velocities, by the coordinates
+  Eigen::Index all_displacements = 0;  ///< rows of the embedding that are of displacements
 
   /// Displacements, then velocities.
   std::vector<std::size_t> rows() const;

@@ -93,17 +93,17 @@ std::vector<Complex> bicycle_modes(const ClosedPrograms& programs, double v) {
 }
 
 /// The others are 0, multiple ones that rounding moves: where it is, how it heads, its speed, and what the constraints
-/// forbid.
+/// forbid. What they leave of the digits of a slow one, -0.004/s at 6 m/s, is little: errors are shares of 0.1/s or more.
 TEST(Rolling, BicycleHasThePublishedEigenvalues) {
   const ClosedPrograms programs(model_named("bicycle"), true);
   EXPECT_EQ(programs.operations("linearize"),
-            12416u);  // 19289 by the operations that multipliers are computed in
+            11261u);  // 19289 by the operations that multipliers are computed in
   double worst = 0, others = 0;
   for (int v = 0; v <= 10; ++v) {
     std::vector<Complex> found = bicycle_modes(programs, v);
     for (const Complex expected : published_modes(v)) {
       const Complex mu = nearest(found, expected);
-      worst = std::max(worst, std::abs(mu - expected) / std::abs(expected));
+      worst = std::max(worst, std::abs(mu - expected) / std::max(0.1, std::abs(expected)));
       found.erase(std::find(found.begin(), found.end(), mu));
     }
     for (const Complex mu : found) others = std::max(others, std::abs(mu));

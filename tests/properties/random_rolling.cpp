@@ -156,4 +156,17 @@ model::Mechanism random_rolling(std::uint64_t seed) {
   return {};
 }
 
+model::Mechanism asking_for_independent_velocities(model::Mechanism mechanism) {
+  constexpr double kWay = 0.45;
+  mechanism.loop_options = {};
+  mechanism.loop_options.treatment = model::LoopTreatment::kExplicit;
+  const std::vector<double> parameters = model::default_values(mechanism);
+  for (model::Joint& joint : mechanism.joints)
+    for (model::Coordinate& coordinate : joint.coordinates) {
+      const double start = coordinate.initial_position.evaluate<double>(parameters);
+      if (!coordinate.motion) coordinate.range = {start - kWay, start + kWay};
+    }
+  return mechanism;
+}
+
 }  // namespace jourdain::tests

@@ -13,4 +13,8 @@ namespace jourdain::tests {
 /// `consistent_states(..., seed, kLoopStates)`, and one degree of freedom or more; other draws are thrown away.
 model::Mechanism random_rolling(std::uint64_t seed);
 
+/// It, asked to have independent velocities, its coordinates within 0.45 rad or m of where they start, so that more can
+/// be proven.
+model::Mechanism asking_for_independent_velocities(model::Mechanism mechanism);
+
 }  // namespace jourdain::tests

@@ -4,6 +4,7 @@
 
 #include "commands/build_model.hpp"
 #include "model/read/read.hpp"
+#include "programs/displaced_tangent.hpp"
 #include "programs/steppers.hpp"
 #include "support/check.hpp"
 #include "support/files.hpp"
@@ -46,7 +47,7 @@ EmittedModel emitted_from(const model::Mechanism& mechanism, const std::vector<s
   options.functions = functions;
   const CompiledModel compiled = compile(mechanism, options);
   JD_CHECK(compiled.verdict.accepted(), "refused: {}", compiled.verdict.failures.front());
-  EmittedModel result{mechanism, compiled.facts.tangent,
+  EmittedModel result{mechanism, programs::displaced_tangent(compiled.facts),
                       commands::build_model(options.name, compiled, commands::NumberType::kDouble)};
   studies::set_parameters(result.table(), parameter_values(mechanism));
   return result;

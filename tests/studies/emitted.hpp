@@ -12,7 +12,7 @@ namespace jourdain::tests {
 
 struct EmittedModel {
   model::Mechanism mechanism;
-  model::Tangent tangent;  ///< of the independent coordinates
+  model::Tangent tangent;  ///< of the independent coordinates, and of what is carried along
   studies::LoadedModel loaded;
 
   const jourdain_model_table& table() const { return loaded.table(); }

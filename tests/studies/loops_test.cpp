@@ -108,6 +108,42 @@ TEST(LoopStudies, ModesWithMultipliersAreThoseOfOneDegreeOfFreedom) {
   EXPECT_NEAR(A(0, 1), 1, 1e-6);
 }
 
+/// The disc that rolls, its constraints met by `treatment`.
+EmittedModel rolling_disc(const std::string& treatment) {
+  std::vector<std::string> functions = kFunctions;
+  functions.pop_back();
+  const std::string text = support::read_file(std::string(JOURDAIN_SOURCE_DIR) + "/models/rolling_disc.toml");
+  return emitted_from(text + "\n[loops]\ntreatment = \"" + treatment + "\"\n", functions);
+}
+
+/// Displacements of what is carried along count: eight rows, where multipliers have as many local coordinates.
+TEST(LoopStudies, ModesOfIndependentVelocitiesAreThoseWithMultipliers) {
+  const Moving all(rolling_disc("multipliers")), reduced(rolling_disc("explicit"));
+  const Point<double> point = all.later(all.flow.start(), 1e-3, 200), start = reduced.flow.start();
+  Point<double> same{point.t, {point.x.begin(), point.x.begin() + 7}};
+  same.x.insert(same.x.end(), point.x.begin() + 10, point.x.end());
+  ASSERT_EQ(same.x.size(), start.x.size());
+  const LocalCoordinates local = local_coordinates(all.flow, point, all.model.tangent);
+  EXPECT_EQ(local.displacements.size(), 5u);
+  EXPECT_EQ(local.velocities.size(), 3u);
+  const Eigen::MatrixXd rates = linearisation(all.flow, point, all.model.tangent) * local.embedding,
+                        A = linearisation(reduced.flow, same, reduced.model.tangent);
+  ASSERT_EQ(A.rows(), 8);
+  ASSERT_EQ(A.cols(), 8);
+  Eigen::MatrixXd kept(8, 8);
+  for (Eigen::Index i = 0; i < 8; ++i)
+    kept.row(i) =
+        rates.row(Eigen::Index(local.rows()[std::size_t(i)]) + (i < 5 ? 0 : local.all_displacements));
+  const Eigen::VectorXcd expected = modes_of(kept).values;
+  std::size_t count = 0;
+  for (const std::complex<double> mu : modes_of(A).values) {
+    if (std::abs(mu) < 0.1) continue;  // where it is, and how it heads
+    ++count;
+    EXPECT_LT((expected.array() - mu).abs().minCoeff(), 1e-8 * std::abs(mu)) << mu;
+  }
+  EXPECT_EQ(count, 5u);
+}
+
 TEST(LoopStudies, DifferencesGiveTheEmittedDerivatives) {
   std::vector<std::string> without = kFunctions;
   without.pop_back();
