@@ -11,7 +11,6 @@
 // - independent: left, right; the others (floor_x, floor_y, floor_angle) in their velocities, their positions
 //   are carried along. Proven: what is solved for these velocities is regular everywhere in the declared
 //   ranges, at the default value of radius, track, its determinant 0.72 or more of that at the start
-// - why so: constraints of velocities leave positions free
 //
 // Assumptions
 // - bodies are rigid; joints are ideal and without limits

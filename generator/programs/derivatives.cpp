@@ -28,8 +28,8 @@ using ir::Signed;
 
 namespace {
 
-/// What the columns of a Jacobian stand for: displacements (one for each velocity, those of states displace nothing; then
-/// of what is carried along), velocities, inputs, time.
+/// What the columns of a Jacobian stand for: displacements (one for each velocity, those of states displace nothing;
+/// then of what is carried along), velocities, inputs, time.
 struct Columns {
   std::size_t velocities = 0, states = 0, carried = 0, inputs = 0;
   bool time = false;  ///< something depends on it

@@ -11,11 +11,11 @@
 
 namespace jourdain::studies {
 
-/// A = ∂(ẏ, ż)/∂(y, z) at `point`, positions first. A quaternion counts
-/// as a small rotation δθ, δquat = ½ quat ⊗ (0, δθ), so that its length adds no mode. The axes are the body's at
-/// that moment and do not turn with it: in axes that do, a fixed deviation seems to oscillate at |ω|, which no
-/// method has to survive. Position k is the one that velocity k moves, behind those stand what is carried along. From the emitted derivatives where the table has
-/// them, else by differences, with about 10 digits in double. Positions that depend on others follow them.
+/// A = ∂(ẏ, ż)/∂(y, z) at `point`, positions first. A quaternion counts as a small rotation δθ, δquat = ½ quat ⊗ (0,
+/// δθ), so that its length adds no mode. The axes are the body's at that moment and do not turn with it: in axes that
+/// do, a fixed deviation seems to oscillate at |ω|, which no method has to survive. Position k is the one that velocity
+/// k moves; behind those stand what is carried along. From the emitted derivatives where the table has them, else by
+/// differences, with about 10 digits in double. Positions that depend on others follow them.
 Eigen::MatrixXd linearisation(const Flow<double>& flow, const Point<double>& point,
                               const model::Tangent& tangent);
 

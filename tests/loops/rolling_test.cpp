@@ -93,7 +93,8 @@ std::vector<Complex> bicycle_modes(const ClosedPrograms& programs, double v) {
 }
 
 /// The others are 0, multiple ones that rounding moves: where it is, how it heads, its speed, and what the constraints
-/// forbid. What they leave of the digits of a slow one, -0.004/s at 6 m/s, is little: errors are shares of 0.1/s or more.
+/// forbid. What they leave of the digits of a slow one, -0.004/s at 6 m/s, is little: errors are shares of 0.1/s or
+/// more.
 TEST(Rolling, BicycleHasThePublishedEigenvalues) {
   const ClosedPrograms programs(model_named("bicycle"), true);
   EXPECT_EQ(programs.operations("linearize"),

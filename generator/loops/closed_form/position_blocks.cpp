@@ -245,7 +245,7 @@ class Closing {
     if (const auto first = row_of_one(rows)) {
       const auto [row, unknown] = *first;
       const std::size_t entry = block.dependents[unknown], other = block.dependents[1 - unknown];
-      const std::string failure = solve_rows({substituted(rows[row], 1 - unknown, {})}, {entry});
+      std::string failure = solve_rows({substituted(rows[row], 1 - unknown, {})}, {entry});
       if (!failure.empty()) return failure;
       return solve_rows({substituted(rows[1 - row], unknown, roles_.known.at(entry))}, {other});
     }
@@ -289,7 +289,7 @@ class Closing {
                    const std::variant<Solution, std::string>& solved) {
     if (const auto* failure = std::get_if<std::string>(&solved))
       return fmt::format("{}: {}", names_of(entries), *failure);
-    const Solution& solution = std::get<Solution>(solved);
+    const auto& solution = std::get<Solution>(solved);
     for (std::size_t k = 0; k < entries.size(); ++k)
       roles_.known[entries[k]] = placed(entries[k], solution.unknowns[k]);
     if (solution.rotation) rotations_[entries[entries.size() - 4]] = *solution.rotation;

@@ -28,7 +28,6 @@
 namespace jourdain::loops {
 
 using model::LoopTreatment;
-using support::shown;
 
 namespace {
 

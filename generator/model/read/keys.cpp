@@ -299,15 +299,15 @@ ratio = 0.5
 }
 
 KeySection loops_section() {
-  return {
-      "loops",
-      "[loops]",
-      "How loops are closed; what is left out is chosen.",
-      {{"treatment", "\"explicit\", \"partitioned\", \"multipliers\"", "", "the first that is proven; multipliers where constraints bind velocities", ""},
-       {"independent", "list of names", "", "chosen", "coordinates that the others follow from"},
-       {"iterations", "constant", "", "2", "of Newton's method at the end of a step"},
-       {"stabilisation", "constant", "1/s", "0", "multipliers: damps what opens between projections"}},
-      R"([loops]
+  return {"loops",
+          "[loops]",
+          "How loops are closed; what is left out is chosen.",
+          {{"treatment", "\"explicit\", \"partitioned\", \"multipliers\"", "",
+            "the first that is proven; multipliers where constraints bind velocities", ""},
+           {"independent", "list of names", "", "chosen", "coordinates that the others follow from"},
+           {"iterations", "constant", "", "2", "of Newton's method at the end of a step"},
+           {"stabilisation", "constant", "1/s", "0", "multipliers: damps what opens between projections"}},
+          R"([loops]
 treatment = "explicit"
 independent = ["crank"]
 )"};
