@@ -15,7 +15,6 @@
 #include "commands/ensemble_text.hpp"
 #include "commands/ensemble_verdict.hpp"
 #include "commands/memory_checks.hpp"
-#include "commands/method_names.hpp"
 #include "commands/progress.hpp"
 #include "commands/run_setup.hpp"
 #include "commands/spread_check.hpp"
@@ -96,13 +95,11 @@ int run(EnsembleArguments arguments) {
                model->loaded.mechanism.name);
     return kModelWrong;
   }
-  for (const std::string& conflict :
-       {check_steps({arguments.choices.method}, model->loaded),
-        check_sampling(model->loaded.mechanism, model->parameters, arguments.step)})
-    if (!conflict.empty()) {
-      fmt::print(stderr, "error: {}\n", conflict);
-      return kUsage;
-    }
+  if (const std::string uneven = check_sampling(model->loaded.mechanism, model->parameters, arguments.step);
+      !uneven.empty()) {
+    fmt::print(stderr, "error: {}\n", uneven);
+    return kUsage;
+  }
   CompileOptions& options = model->loaded.options;
   options.functions = loadable_functions({arguments.choices.method});
   options.choices.packs = true;

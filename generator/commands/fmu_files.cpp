@@ -45,8 +45,8 @@ std::map<std::string, std::string> holes(const FmuScene& scene, const std::strin
     std::size_t velocity = 0;
     for (const model::Tangent::Scalar& scalar : facts.tangent.scalars)
       if (scalar.position == position) velocity = scalar.velocity;
-    for (std::size_t k = 0; k < facts.carried.size();
-         ++k)  // columns of displacements, behind those of velocities
+    // What is carried along has columns of displacements behind those of velocities.
+    for (std::size_t k = 0; k < facts.carried.size(); ++k)
       if (facts.carried[k] == position) velocity = facts.moving() + k;
     velocities.push_back(velocity);
   }

@@ -16,8 +16,7 @@ namespace jourdain::loops {
 /// A value that must be positive for a closed form to hold.
 struct Requirement {
   ir::Signed value;
-  bool is_margin =
-      true;  ///< of a discriminant or determinant, so that its least value is reported; otherwise of a divisor
+  bool is_margin = true;   ///< of ReachRequest::margin, its least value is reported; otherwise of a divisor
   std::string dependents;  ///< names of what is found by it
 };
 

@@ -10,10 +10,6 @@ namespace jourdain::loops {
 
 namespace {
 
-bool is_among(const std::vector<std::size_t>& list, std::size_t k) {
-  return std::find(list.begin(), list.end(), k) != list.end();
-}
-
 std::vector<Matrix> rows_of(const std::vector<Matrix>& jacobians, const std::vector<std::size_t>& rows) {
   std::vector<Matrix> parts;
   for (const Matrix& G : jacobians) parts.emplace_back(G(rows, Eigen::all));
@@ -43,9 +39,8 @@ Groups groups_within(const Groups& groups, const std::vector<std::size_t>& free)
 
 bool takes_part_of_rotation(const Block& block, const model::Tangent& tangent) {
   return std::any_of(tangent.quaternions.begin(), tangent.quaternions.end(), [&](const auto& rotation) {
-    return is_among(block.dependents, rotation.velocity) ||
-           is_among(block.dependents, rotation.velocity + 1) ||
-           is_among(block.dependents, rotation.velocity + 2);
+    return std::any_of(block.dependents.begin(), block.dependents.end(),
+                       [&](std::size_t k) { return k >= rotation.velocity && k < rotation.velocity + 3; });
   });
 }
 

@@ -1,0 +1,49 @@
+// Independent velocities on the command line: what steps they have, and other parameters than those of the description.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "commands/run_jourdain.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace jourdain::tests {
+namespace {
+
+constexpr const char* kRobot = "models/differential_drive.toml";
+
+class IndependentVelocitiesOnTheCommandLine : public testing::Test {
+ protected:
+  /// The command on the robot, with what it writes into a folder of the test.
+  support::ProcessResult run(const std::string& command, std::vector<std::string> options) {
+    options.insert(options.begin(), {command, kRobot});
+    return jourdain(options);
+  }
+
+  const support::TemporaryFolder folder_;
+  const std::string csv_ = folder_.path() + "/run.csv", out_ = folder_.path() + "/out";
+};
+
+TEST_F(IndependentVelocitiesOnTheCommandLine, LinearlyImplicitStepsNeedMultipliers) {
+  const std::string why = "ros34pw2 needs the velocities that follow from others";
+  expect(run("simulate", {"--method", "ros34pw2", "--output", csv_}), 2, why);
+  expect(run("compile", {"--functions", "ros34pw2_step", "-o", out_}), 2, why);
+  expect(run("cost", {"--methods", "rk4,ros34pw2"}), 2, why);
+  expect(run("report", {"--methods", "rk4,ros34pw2", "-o", out_}), 2, why);
+}
+
+TEST_F(IndependentVelocitiesOnTheCommandLine, AreProvenAgainAtOtherParameters) {
+  const std::vector<std::string> driven = {"--output",         csv_,     "--duration", "0.1",
+                                           "--constant-input", "0.2,0.3"};
+  const auto with = [&](const char* setting) {
+    std::vector<std::string> options = driven;
+    options.insert(options.end(), {"--set", setting});
+    return run("simulate", options);
+  };
+  expect(with("radius=0.2"), 0, "at t = 0.1 s");
+  expect(with("track=0.3"), 0, "at t = 0.1 s");
+  expect(with("track=0"), 2, "not proven to close at track = 0: velocities of floor_x");
+}
+
+}  // namespace
+}  // namespace jourdain::tests
