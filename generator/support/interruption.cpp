@@ -47,12 +47,15 @@ void end(pid_t process) {
   kill(-process, SIGKILL);
 }
 
-/// The rest of the program may still be writing into it: again, then.
+/// The rest of the program, or a process that is being ended, may still be writing into it: again, then.
 void remove_folder(const std::string& folder) {
-  constexpr int kPatience = 100;
+  constexpr int kPatience = 100;  // times 5 ms
   std::error_code ignored;
-  for (int i = 0; i < kPatience && std::filesystem::exists(folder, ignored); ++i)
+  for (int i = 0; i < kPatience; ++i) {
     std::filesystem::remove_all(folder, ignored);
+    if (!std::filesystem::exists(folder, ignored)) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
 }
 
 [[noreturn]] void wait_for_signal() {

@@ -11,8 +11,9 @@ struct ProcessResult {
   std::string output;  ///< stdout and stderr together
 };
 
-/// Runs `command[0]`, found on the PATH, with the other entries as arguments and no shell between. Throws
-/// EnvironmentError when it cannot be started.
+/// Runs `command[0]`, found on the PATH, with the other entries as arguments and no shell between. Its
+/// temporary folder (TMPDIR) is its own and is removed with what it leaves there. Throws EnvironmentError when it
+/// cannot be started.
 ProcessResult run_process(const std::vector<std::string>& command);
 
 }  // namespace jourdain::support

@@ -1,24 +1,17 @@
 // Reports as their users make them: orders, sources of the error, recommendations, failures.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <spawn.h>
-#include <sys/wait.h>
 
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "agreement/exact_pendulum.hpp"
 #include "pendulum/pendulum_kernels.hpp"
 #include "support/files.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
-
-extern char** environ;
 
 namespace jourdain::tests {
 namespace {
@@ -456,29 +449,6 @@ TEST(Report, RecommendsAStepForATyreOnABump) {
   EXPECT_TRUE(advice["confirmed"].get<bool>());
   EXPECT_LE(advice["largest_error"]["position"].get<double>(), 1e-3);
   EXPECT_NE(result.output.find("a run confirms it:"), std::string::npos) << result.output;
-}
-
-TEST(Report, KilledHalfWayLeavesNothing) {
-  const support::TemporaryFolder folder, temporary;
-  const std::string out = folder.path() + "/out";
-  for (const int delay : {0, 300, 1500}) {  // ms after it began to compile
-    const std::string setting = "TMPDIR=" + temporary.path();
-    const std::string path = model("lagrange_top");
-    const char* arguments[] = {"env", setting.c_str(), JOURDAIN_BINARY, "report", path.c_str(),
-                               "-o",  out.c_str(),     nullptr};
-    pid_t child = 0;
-    ASSERT_EQ(posix_spawnp(&child, "env", nullptr, nullptr, const_cast<char**>(arguments), environ), 0);
-    for (int i = 0; i < 3000 && fs::is_empty(temporary.path()); ++i)
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    std::this_thread::sleep_for(std::chrono::milliseconds(delay));
-    kill(child, SIGTERM);
-    int status = 0;
-    waitpid(child, &status, 0);
-    EXPECT_TRUE(WIFEXITED(status));
-    EXPECT_EQ(WEXITSTATUS(status), 3);
-    EXPECT_FALSE(fs::exists(out));
-    EXPECT_TRUE(fs::is_empty(temporary.path())) << delay;
-  }
 }
 
 }  // namespace
