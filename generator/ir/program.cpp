@@ -169,55 +169,53 @@ Real literal_value(const Node& node) {
 }  // namespace
 
 template <class Real>
-std::vector<Real> interpret(const Program& program, const LeafValues<Real>& leaves) {
+Real computed(const Node& node, const std::vector<Real>& earlier) {
   using std::cos, std::sin, std::sqrt;
+  JD_CHECK(node.op != Op::kLeaf, "{}[{}] has no value of its own", leaf_name(node.leaf), node.index);
+  const auto a = [&]() -> const Real& { return earlier[node.a.value]; };
+  const auto b = [&]() -> const Real& { return earlier[node.b.value]; };
+  switch (node.op) {
+    case Op::kLiteral:
+      return literal_value<Real>(node);
+    case Op::kNegate:
+      return -a();
+    case Op::kAdd:
+      return a() + b();
+    case Op::kSubtract:
+      return a() - b();
+    case Op::kMultiply:
+      return a() * b();
+    case Op::kDivide:
+      return a() / b();
+    case Op::kSqrt:
+      return sqrt(a());
+    case Op::kSin:
+      return sin(a());
+    case Op::kCos:
+      return cos(a());
+    default:
+      return support::value_of(function_of(node.op), a(), b());
+  }
+}
+
+template <class Real>
+std::vector<Real> interpret(const Program& program, const LeafValues<Real>& leaves) {
   std::vector<Real> v;
   v.reserve(program.nodes.size());
   for (const Node& node : program.nodes) {
-    const auto a = [&] { return v[node.a.value]; };
-    const auto b = [&] { return v[node.b.value]; };
-    switch (node.op) {
-      case Op::kLiteral:
-        v.push_back(literal_value<Real>(node));
-        break;
-      case Op::kLeaf:
-        JD_CHECK(node.index < leaves[node.leaf].size(), "{}[{}]", leaf_name(node.leaf), node.index);
-        v.push_back(leaves[node.leaf][node.index]);
-        break;
-      case Op::kNegate:
-        v.push_back(-a());
-        break;
-      case Op::kAdd:
-        v.push_back(a() + b());
-        break;
-      case Op::kSubtract:
-        v.push_back(a() - b());
-        break;
-      case Op::kMultiply:
-        v.push_back(a() * b());
-        break;
-      case Op::kDivide:
-        v.push_back(a() / b());
-        break;
-      case Op::kSqrt:
-        v.push_back(sqrt(a()));
-        break;
-      case Op::kSin:
-        v.push_back(sin(a()));
-        break;
-      case Op::kCos:
-        v.push_back(cos(a()));
-        break;
-      default:
-        v.push_back(support::value_of(function_of(node.op), a(), b()));
-        break;
+    if (node.op != Op::kLeaf) {
+      v.push_back(computed(node, v));
+      continue;
     }
+    JD_CHECK(node.index < leaves[node.leaf].size(), "{}[{}]", leaf_name(node.leaf), node.index);
+    v.push_back(leaves[node.leaf][node.index]);
   }
   std::vector<Real> results;
   for (const Output& output : program.outputs) results.push_back(v[output.value.value]);
   return results;
 }
 
+template support::ScaledReal computed(const Node&, const std::vector<support::ScaledReal>&);
 template std::vector<float> interpret(const Program&, const LeafValues<float>&);
 template std::vector<double> interpret(const Program&, const LeafValues<double>&);
 template std::vector<long double> interpret(const Program&, const LeafValues<long double>&);

@@ -137,6 +137,10 @@ struct LeafValues {
   const std::vector<Real>& operator[](LeafKind kind) const { return of[static_cast<std::size_t>(kind)]; }
 };
 
+/// A value of a program, not a leaf, from those that are before it.
+template <class Real>
+Real computed(const Node& node, const std::vector<Real>& earlier);
+
 /// The outputs of a program, in order, computed in `Real` arithmetic: double, float, long double take literals
 /// as they are written, support::ScaledReal takes the constants that they stand for.
 template <class Real>

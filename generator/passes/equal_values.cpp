@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "passes/rewrite.hpp"
-#include "passes/scramble.hpp"
 #include "support/binary_digits.hpp"
 
 namespace jourdain::passes {
@@ -34,19 +32,13 @@ std::vector<Residue> first_residues(const std::vector<Fingerprint>& fingerprints
   return keys;
 }
 
-std::vector<Residue> inverses(std::vector<Residue> residues) {
-  for (Residue& residue : residues) residue = residue.inverse();
-  return residues;
-}
-
 /// The same for values of which each is another one times and plus numbers; 0 for numbers.
-Residue line_key(const Fingerprint& value) {
-  return (value.at[0] - value.at[1]) * (value.at[0] - value.at[2]).inverse();
-}
-
 std::vector<Residue> line_keys(const std::vector<Fingerprint>& fingerprints) {
-  std::vector<Residue> keys;
-  for (const Fingerprint& value : fingerprints) keys.push_back(line_key(value));
+  std::vector<Residue> keys, differences;
+  for (const Fingerprint& value : fingerprints) differences.push_back(value.at[0] - value.at[2]);
+  const std::vector<Residue> quotients = inverses(std::move(differences));
+  for (std::size_t i = 0; i < fingerprints.size(); ++i)
+    keys.push_back((fingerprints[i].at[0] - fingerprints[i].at[1]) * quotients[i]);
   return keys;
 }
 
@@ -71,23 +63,6 @@ std::optional<cln::cl_R> number(const ScaledReal& value) {
   const bool is_known = value.scale() <= kMostLost * size && size > 1e-100L && size < 1e100L;
   if (value != ScaledReal(0) && !is_known) return {};
   return support::with_binary_digits(value.value(), kDigits);
-}
-
-/// A value and one that it may be computed from, in 77 digits at one of some samples.
-struct ExactPair {
-  ScaledReal v, x;
-};
-
-ExactPair exact_pair(const ir::Program& program, std::uint64_t sample) {
-  ir::LeafValues<ScaledReal> leaves;
-  for (const ir::Node& node : program.nodes) {
-    if (node.op != ir::Op::kLeaf) continue;
-    std::vector<ScaledReal>& values = leaves[node.leaf];
-    if (values.size() <= node.index) values.resize(node.index + 1);
-    values[node.index] = 0.5 + unit_of(scrambled(seed_of_leaf(node), sample));
-  }
-  const std::vector<ScaledReal> values = ir::interpret(program, leaves);
-  return {values[0], values[1]};
 }
 
 }  // namespace
@@ -118,8 +93,10 @@ EqualValues::EqualValues(const ir::Program& program, std::vector<Fingerprint> fi
       fingerprints_(std::move(fingerprints)),
       first_(first_residues(fingerprints_)),
       inverses_(inverses(first_)),
+      line_keys_(line_keys(fingerprints_)),
       by_value_(first_),
-      by_line_(line_keys(fingerprints_)),
+      by_line_(line_keys_),
+      exact_{ExactValues(program, 0), ExactValues(program, 1), ExactValues(program, 2)},
       users_(users(program)),
       visited_(program.nodes.size()) {}
 
@@ -128,7 +105,7 @@ std::vector<Definition> EqualValues::lines(ValueId id) const {
   if (is_number(value)) return {{.kind = Definition::Kind::kNumber}};
   std::vector<Definition> list;
   std::size_t tried = 0;
-  for (const auto& [key, x] : by_line_.values_of(line_key(value))) {
+  for (const auto& [key, x] : by_line_.values_of(line_keys_[id.value])) {
     if (x >= id.value) break;
     if (fingerprints_[x] == value || -fingerprints_[x] == value)
       list.push_back({.kind = Definition::Kind::kLine, .x = {ValueId(x), fingerprints_[x] != value}});
@@ -158,25 +135,24 @@ std::optional<Definition> EqualValues::line(std::size_t v, std::size_t x) const 
   return line;
 }
 
-std::optional<Definition> EqualValues::with_numbers(ValueId id, Definition definition) const {
+std::optional<Definition> EqualValues::with_numbers(ValueId id, Definition definition) {
   const bool is_constant = definition.kind == Definition::Kind::kNumber;
   if (!is_constant && !definition.is_scaled && !definition.is_shifted) return definition;
-  ir::Program both = program_;
-  both.outputs = {{"v", -1, -1, id}, {"x", -1, -1, is_constant ? id : definition.x.value}};
-  both = without_unused(both);
-  const ExactPair one = exact_pair(both, 0), other = exact_pair(both, 1), proof = exact_pair(both, 2);
-  const auto signed_x = [&](const ExactPair& pair) { return definition.x.negative ? -pair.x : pair.x; };
+  const auto v = [&](int sample) { return exact_[sample].of(id); };
+  const auto x = [&](int sample) { return exact_[sample].of(is_constant ? id : definition.x.value); };
   std::optional<cln::cl_R> factor = is_constant ? 0 : cln::cl_R(1), offset = cln::cl_R(0);
   if (definition.is_scaled)
-    factor = number(definition.is_shifted ? (other.v - one.v) / (other.x - one.x) : one.v / one.x);
+    factor = number(definition.is_shifted ? (v(1) - v(0)) / (x(1) - x(0)) : v(0) / x(0));
   if (!factor) return {};
-  const auto rest = [&](const ExactPair& pair) { return pair.v - ScaledReal(*factor) * signed_x(pair); };
+  const auto rest = [&](int sample) {
+    return v(sample) - ScaledReal(*factor) * (definition.x.negative ? -x(sample) : x(sample));
+  };
   if (is_constant && fingerprints_[id.value].is_zero())
     offset = cln::cl_R(0);
   else if (is_constant || definition.is_shifted)
-    offset = number(rest(one));
+    offset = number(rest(0));
   if (!offset) return {};
-  const ScaledReal difference = rest(proof) - ScaledReal(*offset);
+  const ScaledReal difference = rest(2) - ScaledReal(*offset);
   if (!isfinite(difference) ||
       std::fabs(static_cast<long double>(difference)) > kAgreement * difference.scale())
     return {};

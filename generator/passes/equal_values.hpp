@@ -1,12 +1,14 @@
 // Other ways to compute the values of a program: what each equals as a function of all leaves.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "passes/definition.hpp"
+#include "passes/exact_values.hpp"
 #include "passes/fingerprints.hpp"
 
 namespace jourdain::passes {
@@ -52,7 +54,7 @@ class EqualValues {
   /// As sum or product of two values, of which one is near it.
   std::vector<Definition> pairs(ir::ValueId id);
   /// With its numbers. None where these cannot be told to all the digits of a literal.
-  std::optional<Definition> with_numbers(ir::ValueId id, Definition definition) const;
+  std::optional<Definition> with_numbers(ir::ValueId id, Definition definition);
 
  private:
   std::optional<Definition> line(std::size_t v, std::size_t x) const;
@@ -63,7 +65,10 @@ class EqualValues {
   const ir::Program& program_;
   std::vector<Fingerprint> fingerprints_;
   std::vector<Residue> first_, inverses_;  ///< at the first point
+  std::vector<Residue>
+      line_keys_;  ///< the same for values of which each is another one times and plus numbers
   ResidueIndex by_value_, by_line_;
+  std::array<ExactValues, 3> exact_;             ///< two to tell numbers from, one to see that they hold
   std::vector<std::vector<std::size_t>> users_;  ///< of each value, in their order
   std::vector<std::size_t> visited_;             ///< the visit in which a value was last near
   std::size_t visit_ = 0;

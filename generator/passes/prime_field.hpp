@@ -2,7 +2,10 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <cstdlib>
+#include <vector>
 
 namespace jourdain::passes {
 
@@ -73,6 +76,24 @@ inline Residue Residue::of(double value) {
   const Residue size = Residue(2).power(static_cast<std::uint64_t>(std::abs(exponent)));
   const Residue result = digits * (exponent < 0 ? size.inverse() : size);
   return value < 0 ? -result : result;
+}
+
+/// 1 over each, with one division for all (Montgomery 1987, section 10.3.1); of 0: 0.
+inline std::vector<Residue> inverses(std::vector<Residue> residues) {
+  std::vector<Residue> before;  // product of those before each
+  Residue product(1);
+  for (const Residue residue : residues) {
+    before.push_back(product);
+    if (!residue.is_zero()) product = product * residue;
+  }
+  Residue rest = product.inverse();  // 1 over the product of those up to each
+  for (std::size_t i = residues.size(); i-- > 0;) {
+    if (residues[i].is_zero()) continue;
+    const Residue inverse = rest * before[i];
+    rest = rest * residues[i];
+    residues[i] = inverse;
+  }
+  return residues;
 }
 
 }  // namespace jourdain::passes

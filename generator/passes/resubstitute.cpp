@@ -181,7 +181,7 @@ class Substitution {
     value.has_pairs = value.has_pairs || with_pairs;
   }
 
-  bool is_admitted(std::size_t i, Alternative& alternative) const {
+  bool is_admitted(std::size_t i, Alternative& alternative) {
     if (alternative.admitted) return *alternative.admitted;
     const std::optional<Definition> complete = equal_.with_numbers(ValueId(i), alternative.definition);
     if (complete) alternative.definition = *complete;

@@ -71,5 +71,14 @@ TEST(PrimeField, TellsNumbersThatPeopleWriteFromEachOther) {
   EXPECT_EQ(twice, std::vector<std::uint64_t>());
 }
 
+TEST(PrimeField, InvertsManyAsEach) {
+  const std::vector<Residue> residues = {Residue(3), Residue(), Residue(Residue::kPrime - 1), Residue(7),
+                                         Residue()};
+  const std::vector<Residue> found = inverses(residues);
+  ASSERT_EQ(found.size(), residues.size());
+  for (std::size_t i = 0; i < residues.size(); ++i) EXPECT_EQ(found[i], residues[i].inverse()) << i;
+  EXPECT_TRUE(inverses({}).empty());
+}
+
 }  // namespace
 }  // namespace jourdain::passes
