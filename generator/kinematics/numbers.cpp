@@ -112,6 +112,34 @@ struct Jet {
     }
     return bound(of_list(number), first, second);
   }
+  /// function(this, b), where pieces of curves meet without a kink: of each the derivatives of its own.
+  Jet with_kinks(support::Function function, const Jet& b) const {
+    using support::Function;
+    const Ex value = applied(function, at.value, b.at.value);
+    const auto chosen = [](const Ex& sign, const Ex& negative, const Ex& other) {
+      return applied(Function::kWhereNegative, sign, negative) +
+             applied(Function::kWhereNotNegative, sign, other);
+    };
+    const auto where = [&](const Ex& sign, const Taylor& negative, const Taylor& other) {
+      const Ex bound_sign = statements->bind("expression", sign);
+      return bound(value, chosen(bound_sign, negative.first, other.first),
+                   chosen(bound_sign, negative.second, other.second));
+    };
+    switch (function) {
+      case Function::kAbs:
+        return where(at.value, {{}, -at.first, -at.second}, at);
+      case Function::kMin:
+        return where(b.at.value - at.value, b.at, at);
+      case Function::kMax:
+        return where(at.value - b.at.value, b.at, at);
+      case Function::kWhereNegative:
+        return where(at.value, b.at, {0, 0, 0});
+      case Function::kWhereNotNegative:
+        return where(at.value, {0, 0, 0}, b.at);
+      default:  // steps between constants
+        return bound(value, 0, 0);
+    }
+  }
   friend Jet operator-(const Jet& a) { return a.bound(-a.at.value, -a.at.first, -a.at.second); }
   friend Jet operator+(const Jet& a, const Jet& b) {
     return a.bound(a.at.value + b.at.value, a.at.first + b.at.first, a.at.second + b.at.second);
@@ -150,7 +178,7 @@ struct Jet {
     if (function == Function::kArgument) return a.behind(b);
     if (function == Function::kCall) return a.called(b.at.value);
     const support::FunctionFacts& facts = support::facts_of(function);
-    JD_CHECK(!facts.has_kinks, "{} is not differentiated here", facts.name);
+    if (facts.has_kinks) return a.with_kinks(function, b);
     const auto symbolic = [&a](const Ex& value) { return Symbolic{value, a.statements}; };
     const Symbolic x = symbolic(a.at.value), y = symbolic(b.at.value), one = symbolic(1);
     const bool is_curve = facts.operands == 1 ||

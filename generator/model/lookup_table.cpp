@@ -18,8 +18,7 @@ using Piece = std::array<Expression, 4>;
 
 std::vector<Piece> cubics(const LookupTable& table) {
   const std::vector<double>& points = table.axes[0].points;
-  const std::vector<double> values = constant_values(table),
-                            slope = slopes(table.interpolation, points, values);
+  const std::vector<double> values = constant_values(table), slope = slopes(table);
   std::vector<Piece> pieces;
   for (std::size_t i = 0; i + 1 < values.size(); ++i) {
     const Cubic cubic = cubic_of(values[i], slope[i], values[i + 1], slope[i + 1], points[i + 1] - points[i]);
@@ -80,12 +79,12 @@ class Place {
 
 Expression on_a_curve(const LookupTable& table, const Expression& argument) {
   const Points points = table.axes[0].points;
-  const bool is_linear = table.interpolation == Interpolation::kLinear, holds = table.beyond == Beyond::kHold;
+  const bool is_linear = table.interpolation == Interpolation::kLinear;
   const std::vector<Piece> pieces = is_linear ? lines(points, table.values) : cubics(table);
   std::vector<Expression> list = {argument};
   for (const Piece& piece : pieces) list.insert(list.end(), piece.begin(), piece.end());
   Composition make(list);
-  Place place(make, 0, points, holds || !is_linear);
+  Place place(make, 0, points, is_held(table));
   std::size_t total = make.literal(0);
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const std::size_t d = place.behind(i), c = 1 + 4 * i;
@@ -93,7 +92,7 @@ Expression on_a_curve(const LookupTable& table, const Expression& argument) {
     const std::size_t slope = make.sum(c + 1, make.product(d, bend));
     total = make.sum(total, place.chosen(i, make.sum(c, make.product(d, slope))));
   }
-  if (!holds && !is_linear) with_straight_ends(make, total, table);
+  if (goes_on_straight(table)) with_straight_ends(make, total, table);
   return make.finish();
 }
 
@@ -128,7 +127,7 @@ std::size_t clamped(Composition& make, std::size_t argument, Points points) {
 
 std::size_t with_straight_ends(Composition& make, std::size_t held, const LookupTable& table) {
   const Points points = table.axes[0].points;
-  const std::vector<double> slope = slopes(table.interpolation, points, constant_values(table));
+  const std::vector<double> slope = slopes(table);
   const auto beyond = [&](Function side, double point, double by) {
     const std::size_t distance = make.difference(0, make.literal(point));
     return make.product(make.literal(by), make.function(side, distance, make.literal(0)));
@@ -147,10 +146,37 @@ bool has_entries(const LookupTable& table) {
   return table.interpolation != Interpolation::kLinear || cells > kFewCells;
 }
 
+bool goes_on_straight(const LookupTable& table) {
+  return table.beyond == Beyond::kExtend && table.interpolation != Interpolation::kLinear;
+}
+
+bool is_held(const LookupTable& table) { return table.beyond == Beyond::kHold || goes_on_straight(table); }
+
+std::vector<double> slopes(const LookupTable& table) {
+  return slopes(table.interpolation, table.axes[0].points, constant_values(table),
+                table.beyond == Beyond::kRepeat);
+}
+
+namespace {
+
+/// `argument` less the number of periods that it is behind the first point.
+Expression within_period(const Expression& argument, Points points) {
+  const Expression period = points.back() - points.front();
+  const Expression periods =
+      Expression::binary(Expression::Op::kDivide, minus(argument, points.front()), period);
+  return minus(argument, times(period, Expression::function(Function::kFloor, periods)));
+}
+
+}  // namespace
+
 Expression looked_up(const LookupTable& table, std::span<const Expression> arguments) {
   JD_CHECK(arguments.size() == table.axes.size(), "table '{}' has {} axes", table.name, table.axes.size());
-  if (has_entries(table)) return by_entries(table, arguments);
-  return arguments.size() == 1 ? on_a_curve(table, arguments[0]) : on_a_grid(table, arguments);
+  const bool repeats = table.beyond == Beyond::kRepeat;
+  const std::vector<Expression> within = repeats
+                                             ? std::vector{within_period(arguments[0], table.axes[0].points)}
+                                             : std::vector(arguments.begin(), arguments.end());
+  if (has_entries(table)) return by_entries(table, within);
+  return within.size() == 1 ? on_a_curve(table, within[0]) : on_a_grid(table, within);
 }
 
 Callable callable(LookupTable table) {
@@ -158,7 +184,7 @@ Callable callable(LookupTable table) {
   if (table.axes.size() == 2) result.arguments.push_back({"y", table.axes[1].measure});
   if (table.interpolation == Interpolation::kSpline)
     result.smooth =
-        table.beyond == Beyond::kExtend ? Callable::Smooth::kEverywhere : Callable::Smooth::kWithinEnds;
+        table.beyond == Beyond::kHold ? Callable::Smooth::kWithinEnds : Callable::Smooth::kEverywhere;
   result.value = [table = std::move(table)](std::span<const Expression> arguments) {
     return looked_up(table, arguments);
   };

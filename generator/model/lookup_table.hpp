@@ -15,11 +15,12 @@ namespace jourdain::model {
 enum class Interpolation {
   kLinear,
   kMonotone,  ///< cubics with the same slope on both sides of a point, without overshoot
-  kSpline     ///< cubics with the same slope and curvature, curvature 0 at the ends
+  kSpline     ///< cubics with the same slope and curvature; curvature 0 at ends that do not repeat
 };
 enum class Beyond {
-  kHold,   ///< the value at the end
-  kExtend  ///< a straight line with the slope at the end
+  kHold,    ///< the value at the end
+  kExtend,  ///< a straight line with the slope at the end
+  kRepeat   ///< the same again and again: one argument, the values at both ends are equal numbers
 };
 
 /// Of a table whose values are not constant.
@@ -57,9 +58,12 @@ Expression looked_up(const LookupTable& table, std::span<const Expression> argum
 /// Slopes at the points of a curve through `values`, of these kinds:
 ///   kMonotone  Fritsch and Butland, SIAM J. Sci. Stat. Comput. 5 (1984) 300-304, weighted for unequal intervals as in
 ///              SLATEC's PCHIM; where neighbours rise and fall 0
-///   kSpline    natural cubic spline; de Boor, A Practical Guide to Splines (1978), chapter IV
-std::vector<double> slopes(Interpolation kind, std::span<const double> points,
-                           std::span<const double> values);
+///   kSpline    natural or, where the curve repeats, periodic cubic spline; de Boor, A Practical Guide to Splines
+///              (1978), chapter IV
+std::vector<double> slopes(Interpolation kind, std::span<const double> points, std::span<const double> values,
+                           bool repeats = false);
+/// Those of a curve of cubics.
+std::vector<double> slopes(const LookupTable& table);
 
 /// What expressions call it by.
 Callable callable(LookupTable table);

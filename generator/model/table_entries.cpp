@@ -90,10 +90,9 @@ std::size_t polynomial(Composition& make, std::size_t d, const std::array<std::s
 Expression of_a_curve(const LookupTable& table, const Expression& argument) {
   const std::vector<double>& points = table.axes[0].points;
   const std::vector<double> values = constant_values(table);
-  const bool is_linear = table.interpolation == Interpolation::kLinear, holds = table.beyond == Beyond::kHold;
+  const bool is_linear = table.interpolation == Interpolation::kLinear;
   std::array<std::vector<double>, 4> arrays;
-  const std::vector<double> slope =
-      is_linear ? std::vector<double>() : slopes(table.interpolation, points, values);
+  const std::vector<double> slope = is_linear ? std::vector<double>() : slopes(table);
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
     const double width = points[i + 1] - points[i];
     const Cubic cubic = is_linear ? Cubic{values[i], (values[i + 1] - values[i]) / width, 0, 0}
@@ -101,14 +100,14 @@ Expression of_a_curve(const LookupTable& table, const Expression& argument) {
     for (std::size_t k = 0; k < cubic.size(); ++k) arrays[k].push_back(cubic[k]);
   }
   Composition make(std::span(&argument, 1));
-  const Place place = place_of(make, 0, points, holds || !is_linear);
+  const Place place = place_of(make, 0, points, is_held(table));
   Entries entries(make);
   const auto coefficient = [&](std::size_t k) { return entries.entry(arrays[k], place.number); };
   const std::size_t value =
       is_linear ? polynomial<2>(make, place.behind, {coefficient(0), coefficient(1)})
                 : polynomial<4>(make, place.behind,
                                 {coefficient(0), coefficient(1), coefficient(2), coefficient(3)});
-  if (!holds && !is_linear) with_straight_ends(make, value, table);
+  if (goes_on_straight(table)) with_straight_ends(make, value, table);
   return make.finish();
 }
 

@@ -23,6 +23,11 @@ std::vector<double> constant_values(const LookupTable& table);
 /// An argument within the points of an axis.
 std::size_t clamped(Composition& make, std::size_t argument, std::span<const double> points);
 
+/// Is a curve's value that of its argument held at the ends, but for straight lines?
+bool is_held(const LookupTable& table);
+/// Are there such lines? Straight pieces go on by themselves.
+bool goes_on_straight(const LookupTable& table);
+
 /// The value of a curve of cubics, which is `held` beyond the ends, going on straight there.
 std::size_t with_straight_ends(Composition& make, std::size_t held, const LookupTable& table);
 

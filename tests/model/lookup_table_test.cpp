@@ -89,6 +89,17 @@ TEST(LookupTable, IsANaturalSpline) {
   for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(slope[i], slopes_expected[i], 1e-15);
 }
 
+TEST(LookupTable, IsAPeriodicSpline) {
+  // By hand: 4 m0 + m1 + m2 = 6, 2 m0 + 6 m1 + m2 = 3, 2 m0 + m1 + 6 m2 = 3.
+  const std::vector<double> x = {0, 1, 3, 4}, y = {0, 1, -1, 0},
+                            slope = slopes(Interpolation::kSpline, x, y, true);
+  const std::vector<double> expected = {1.5, 0, 0, 1.5};
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(slope[i], expected[i], 1e-15);
+  const std::vector<double> twice =
+      slopes(Interpolation::kSpline, std::vector<double>{0, 1, 3}, std::vector<double>{2, 5, 2}, true);
+  for (const double m : twice) EXPECT_NEAR(m, 1.5, 1e-15);  // 6 m0 + 3 m1 = 13.5, 3 m0 + 6 m1 = 13.5
+}
+
 std::vector<double> rising(Random& random, std::size_t count, double step) {
   std::vector<double> numbers = {random.uniform(-2, 2)};
   while (numbers.size() < count) numbers.push_back(numbers.back() + random.uniform(0, step) + 1e-3);
@@ -117,6 +128,38 @@ TEST(LookupTable, OfMonotoneValuesIsMonotoneAndOfOthersBetweenNeighbours) {
         last = value;
       }
   }
+}
+
+TEST(LookupTable, RepeatsWithTheSlopesOfTheOtherEndAtItsSeam) {
+  Random random(5);
+  for (const auto kind : {Interpolation::kLinear, Interpolation::kMonotone, Interpolation::kSpline})
+    for (int i = 0; i < 50; ++i) {
+      const std::size_t n = 2 + random.below(30);
+      const std::vector<double> x = rising(random, n, 2);
+      const double period = x.back() - x.front();
+      std::vector<double> y;
+      for (std::size_t k = 0; k < n; ++k) y.push_back(random.uniform(-3, 3));
+      y.back() = y.front();
+      const Function table = curve(x, y, kind, Beyond::kRepeat);
+      for (std::size_t k = 0; k < n; ++k)
+        for (const double periods : {-7.0, 0.0, 3.0})
+          EXPECT_NEAR(at(table, x[k] + periods * period), y[k], 1e-9);
+      if (kind == Interpolation::kLinear || n == 2) continue;
+      // Three periods as one curve: what its ends are does not reach its middle by more than a share of 4^-n.
+      std::vector<double> of_three, values;
+      for (int p = -1; p <= 1; ++p)
+        for (std::size_t k = p < 0 ? 0 : 1; k < n; ++k) {
+          of_three.push_back(x[k] + p * period);
+          values.push_back(y[k]);
+        }
+      const Function three = curve(of_three, values, kind);
+      const double share =
+          kind == Interpolation::kMonotone ? 1e-11 : 30 * std::pow(0.3, double(n - 1)) + 1e-11;
+      for (int step = 0; step <= 40; ++step) {
+        const double place = x.front() + period * step / 40;
+        EXPECT_NEAR(at(table, place), at(three, place), share) << n;
+      }
+    }
 }
 
 TEST(LookupTable, HasItsValuesAtItsPointsAndHoldsOrExtendsThemBeyond) {

@@ -23,7 +23,8 @@ KeySection table_section() {
            {"interpolation", "\"linear\", \"monotone\", \"spline\"", "", "\"linear\"",
             "monotone: cubics that rise and fall where the values do; spline: cubics without jumps of the "
             "curvature"},
-           {"beyond", "\"hold\", \"extend\"", "", "\"hold\"", "the end's value, or a line with its slope"},
+           {"beyond", "\"hold\", \"extend\", \"repeat\"", "", "\"hold\"",
+            "the end's value, a line with its slope, or the same again: of one argument"},
            {"description", "text", "", "empty", ""}},
           R"([[table]]
 name = "valve_train"

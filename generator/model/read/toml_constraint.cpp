@@ -81,11 +81,16 @@ class ConstraintReader {
   void read_velocity(Loop& loop, Mechanism& mechanism) {
     if (!table_.has("velocity"))
       return table_.missing("velocity", "an expression of t, coordinates, frames and their rates");
-    loop.residual = settled(table_.function("velocity", needed::kAnything,
-                                            general_scope_but(file_, mechanism, refusal_in_velocity,
-                                                              "it is of inputs or states")),
-                            mechanism);
-    refuse_kinks(table_, "velocity", loop.residual);
+    const std::size_t mark = file_.error_count();
+    const auto velocity = [&] {
+      return table_.function(
+          "velocity", needed::kAnything,
+          general_scope_but(file_, mechanism, refusal_in_velocity, "it is of inputs or states"));
+    };
+    const Expression read = velocity();
+    if (file_.error_count() != mark) return;
+    refuse_kinks(file_, table_, "velocity", velocity);
+    loop.residual = settled(read, mechanism);
     refuse_calls(table_, "velocity", loop.residual);
   }
 
@@ -101,16 +106,13 @@ class ConstraintReader {
     const auto height = [&] { return table_.function("height", needed::kLength, scope); };
     loop.height = height();
     if (file_.error_count() != mark) return;
-    using Smooth = Callable::Smooth;
-    if (file_.with_smooth_callables(Smooth::kEverywhere, height).has_kinks()) {
-      const Expression within = file_.with_smooth_callables(Smooth::kWithinEnds, height);
-      refuse_kinks(table_, "height", within);
-      if (!within.has_kinks())
-        file_.diagnostics().warning(
-            table_.where("height"),
-            fmt::format("{} has a kink where a table ends, where velocities jump", table_.quoted("height")),
-            "stay inside; a curve may go on beyond its ends: beyond = \"extend\"");
-    }
+    if (kinks_of(file_, height) == Kinks::kWhereTablesEnd)
+      file_.diagnostics().warning(
+          table_.where("height"),
+          fmt::format("{} has a kink where a table ends, where velocities jump", table_.quoted("height")),
+          "stay inside; a curve may go on beyond its ends: beyond = \"extend\", or \"repeat\"");
+    else
+      refuse_kinks(file_, table_, "height", height);
     refuse_calls(table_, "height", loop.height);
     loop.approaches = read_approaches(table_, 1).value_or(loop.approaches);
   }

@@ -74,19 +74,33 @@ void refuse_calls(const TomlTable& table, std::string_view key, const Expression
                 "it is differentiated here: forces, rates of states and outputs may");
 }
 
-void refuse_kinks(const TomlTable& table, std::string_view key, const Expression& function) {
-  if (function.has_kinks())
+Kinks kinks_of(TomlFile& file, const std::function<Expression()>& read) {
+  using Smooth = Callable::Smooth;
+  if (!file.with_smooth_callables(Smooth::kEverywhere, read).has_kinks()) return Kinks::kNone;
+  const bool within = file.with_smooth_callables(Smooth::kWithinEnds, read).has_kinks();
+  return within ? Kinks::kAnywhere : Kinks::kWhereTablesEnd;
+}
+
+void refuse_kinks(TomlFile& file, const TomlTable& table, std::string_view key,
+                  const std::function<Expression()>& read) {
+  const Kinks kinks = kinks_of(file, read);
+  if (kinks == Kinks::kWhereTablesEnd)
+    table.error(key,
+                fmt::format("{} has a kink where a table ends, where velocities jump", table.quoted(key)),
+                "a curve may go on beyond its ends: beyond = \"extend\", or \"repeat\"");
+  if (kinks == Kinks::kAnywhere)
     table.error(key,
                 fmt::format("{} may have a kink, where velocities or accelerations jump", table.quoted(key)),
-                "it is differentiated twice; smooth_step, smooth_max and tanh have none");
+                "it is differentiated twice; smooth_step, smooth_max, tanh and splines have none");
 }
 
 Expression read_time_function(TomlFile& file, const TomlTable& table, std::string_view key,
                               const Needed& needed, const Scope& scope) {
   const std::size_t mark = file.error_count();
-  Expression function = table.function(key, needed, scope);
+  const auto read = [&] { return table.function(key, needed, scope); };
+  Expression function = read();
   if (file.error_count() != mark) return function;
-  refuse_kinks(table, key, function);
+  refuse_kinks(file, table, key, read);
   // Of states and functions that are not known yet there is no value here.
   if (function.calls(support::Function::kCall) || !states_in(function).empty()) return function;
   std::vector<Taylor<double>> parameters;

@@ -48,7 +48,11 @@ class FunctionReader {
     if (!has_arguments) file_.complete().numbers = false;
     if (function_.arguments.empty() || function_.name.empty()) return {};
     if (keys_.has("argument_units")) read_units();
-    Expression value = has_arguments ? keys_.function("value", {{unit}}, scope()) : 0.0;
+    const auto read = [&] { return keys_.function("value", {{unit}}, scope()); };
+    const std::size_t mark = file_.error_count();
+    Expression value = has_arguments ? read() : 0.0;
+    if (file_.error_count() == mark && value.has_kinks())
+      function_.smooth = smoothness(kinks_of(file_, read));
     const bool is_external = function_.is_external = read_external();
     if (is_external) check_external(value);
     read_range(unit, is_external);
@@ -66,6 +70,12 @@ class FunctionReader {
   }
 
  private:
+  static Callable::Smooth smoothness(Kinks kinks) {
+    return kinks == Kinks::kNone             ? Callable::Smooth::kEverywhere
+           : kinks == Kinks::kWhereTablesEnd ? Callable::Smooth::kWithinEnds
+                                             : Callable::Smooth::kNowhere;
+  }
+
   bool read_external() {
     if (!keys_.has("external")) return false;
     const toml::value<bool>* external = keys_.find("external")->as_boolean();

@@ -209,9 +209,10 @@ class JointReader {
     joint.curve = table_.functions("curve", needed::kLength, scope);
     if (file_.error_count() != mark) return;
     bool is_known = true;
-    for (const Expression& component : joint.curve) {
-      refuse_kinks(table_, "curve", component);
-      is_known = is_known && !component.calls(support::Function::kCall);
+    for (std::size_t k = 0; k < joint.curve.size(); ++k) {
+      refuse_kinks(file_, table_, "curve",
+                   [&] { return table_.functions("curve", needed::kLength, scope)[k]; });
+      is_known = is_known && !joint.curve[k].calls(support::Function::kCall);
     }
     if (!is_known) return;
     std::vector<Taylor<double>> parameters;

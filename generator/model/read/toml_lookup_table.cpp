@@ -68,7 +68,7 @@ class LookupTableReader {
   void read_kinds() {
     const auto interpolation = keys_.choice("interpolation", {"linear", "monotone", "spline"});
     table_.interpolation = static_cast<Interpolation>(interpolation.value_or(0));
-    table_.beyond = keys_.choice("beyond", {"hold", "extend"}) == 1 ? Beyond::kExtend : Beyond::kHold;
+    table_.beyond = static_cast<Beyond>(keys_.choice("beyond", {"hold", "extend", "repeat"}).value_or(0));
   }
 
   /// The unit and what is in it, as messages show it.
@@ -218,6 +218,7 @@ class LookupTableReader {
                          fmt::format("{} has two axes: it is linear or a spline", keys_.what()));
     if (is_curved && is_grid && table_.beyond == Beyond::kExtend)
       return keys_.error("beyond", fmt::format("{} is a spline of two axes: it holds", keys_.what()));
+    if (table_.beyond == Beyond::kRepeat && !check_period()) return;
     const std::size_t most =
         has_entries(table_) ? kMaximumTableNumbers / numbers_a_value() : kMaximumTableValues;
     if (table_.values.size() > most)
@@ -229,6 +230,23 @@ class LookupTableReader {
         return keys_.error("values", fmt::format("a value of {} is not finite in SI units", keys_.what()));
     if (!is_finite_at_points())
       keys_.error("name", fmt::format("{} is too steep: a slope is not finite", keys_.what()));
+  }
+
+  bool check_period() {
+    const Expression &first = table_.values.front(), &last = table_.values.back();
+    if (table_.axes.size() == 2)
+      keys_.error("beyond", fmt::format("{} has two axes: it does not repeat", keys_.what()));
+    else if (!first.is_constant() || !last.is_constant())
+      keys_.error("beyond",
+                  fmt::format("{} repeats: its first value and its last are numbers", keys_.what()));
+    else if (first.constant() != last.constant())
+      keys_.error("beyond",
+                  fmt::format("{} repeats, but begins with {} and ends with {}", keys_.what(),
+                              first.constant(), last.constant()),
+                  "the last point is the first one of the next period");
+    else
+      return true;
+    return false;
   }
 
   /// Coefficients, and of a curve the beginning of an interval.

@@ -143,12 +143,17 @@ class LoopReader {
   void read_residual(Loop& loop, Mechanism& mechanism) {
     if (!table_.has("residual"))
       return table_.missing("residual", "an expression of t, coordinates, positions and axes of frames");
-    loop.residual = settled(
-        table_.function("residual", needed::kAnything,
-                        general_scope_but(file_, mechanism, refusal_in_residual,
-                                          "it is of more than t, coordinates, positions and axes of frames")),
-        mechanism);
-    refuse_kinks(table_, "residual", loop.residual);
+    const std::size_t mark = file_.error_count();
+    const auto residual = [&] {
+      return table_.function(
+          "residual", needed::kAnything,
+          general_scope_but(file_, mechanism, refusal_in_residual,
+                            "it is of more than t, coordinates, positions and axes of frames"));
+    };
+    const Expression read = residual();
+    if (file_.error_count() != mark) return;
+    refuse_kinks(file_, table_, "residual", residual);
+    loop.residual = settled(read, mechanism);
     refuse_calls(table_, "residual", loop.residual);
     if (loop.residual.calls(support::Function::kAtan2))
       table_.error("residual",

@@ -3,6 +3,7 @@
 
 #include <toml++/toml.h>
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -61,8 +62,14 @@ void settle_motions(const TomlFile& file, Mechanism& mechanism);
 
 /// An error where `function`, which is differentiated, calls one of the user.
 void refuse_calls(const TomlTable& table, std::string_view key, const Expression& function);
-/// An error where `function`, which is differentiated twice, may have a kink.
-void refuse_kinks(const TomlTable& table, std::string_view key, const Expression& function);
+/// Where value, slope or curvature of an expression may jump.
+enum class Kinks { kNone, kWhereTablesEnd, kAnywhere };
+/// Those of what `read`, which succeeds, makes of a text of the file.
+Kinks kinks_of(TomlFile& file, const std::function<Expression()>& read);
+
+/// An error where what `read` makes of `key`, which is differentiated twice, may have a kink.
+void refuse_kinks(TomlFile& file, const TomlTable& table, std::string_view key,
+                  const std::function<Expression()>& read);
 
 /// A function of time, with finite first and second derivatives at t = 0 and the parameters' default values;
 /// zero after a diagnostic that it cannot be read or where it is missing. `scope` has t and names that it refuses.
