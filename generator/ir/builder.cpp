@@ -3,6 +3,7 @@
 #include <cln/cln.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <functional>
 #include <utility>
@@ -11,17 +12,23 @@ namespace jourdain::ir {
 
 namespace {
 
+constexpr std::size_t kSmallestTable = 256;
+
 /// Literals this near to a double, relatively, are it: 0.7 (1/0.7) is 1.
 constexpr double kRounding = 1e-61;
 
 std::size_t hash(const Node& node) {
   auto h = static_cast<std::size_t>(node.op);
   const auto mix = [&h](std::size_t x) { h = (h ^ x) * 0x9E3779B97F4A7C15ull + (h >> 29); };
-  mix(static_cast<std::size_t>(node.leaf) + 31 * std::size_t(node.index));
-  mix(std::hash<double>{}(node.literal));
-  mix(std::hash<double>{}(node.tail[0]));
-  mix(node.a.value);
-  mix(node.b.value);
+  if (node.op == Op::kLiteral) {
+    mix(std::hash<double>{}(node.literal));
+    mix(std::hash<double>{}(node.tail[0]));
+  } else if (node.op == Op::kLeaf) {
+    mix(static_cast<std::size_t>(node.leaf) + 31 * std::size_t(node.index));
+  } else {
+    mix(node.a.value);
+    mix(node.b.value);
+  }
   return h ^ (h >> 32);
 }
 
@@ -35,9 +42,13 @@ Node negated(Node literal) {
 
 }  // namespace
 
-void Builder::grow() {
-  constexpr std::size_t kSmallest = 256;
-  const std::size_t size = std::max(kSmallest, 2 * known_.size());
+Builder::Builder(std::size_t count) {
+  program_.nodes.reserve(count);
+  program_.labels.reserve(count);
+  grow(std::bit_ceil(std::max(kSmallestTable, 2 * count + 2)));
+}
+
+void Builder::grow(std::size_t size) {
   known_.assign(size, 0);
   for (std::size_t i = 0; i < program_.nodes.size(); ++i) {
     std::size_t slot = hash(program_.nodes[i]) & (size - 1);
@@ -47,7 +58,7 @@ void Builder::grow() {
 }
 
 ValueId Builder::intern(const Node& node) {
-  if (2 * program_.nodes.size() >= known_.size()) grow();
+  if (2 * program_.nodes.size() >= known_.size()) grow(std::max(kSmallestTable, 2 * known_.size()));
   std::size_t slot = hash(node) & (known_.size() - 1);
   for (; known_[slot] != 0; slot = (slot + 1) & (known_.size() - 1))
     if (program_.nodes[known_[slot] - 1] == node) return ValueId(known_[slot] - 1);

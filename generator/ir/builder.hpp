@@ -21,6 +21,10 @@ struct Signed {
 /// operations are put in order of their index, so that the program depends on the calls alone.
 class Builder {
  public:
+  Builder() = default;
+  /// With room for so many values.
+  explicit Builder(std::size_t count);
+
   Signed literal(double value);
   Signed literal(const cln::cl_R& value);  ///< exact to 63 digits
   Signed leaf(LeafKind kind, std::size_t index);
@@ -55,7 +59,7 @@ class Builder {
   cln::cl_R literal_of(Signed a) const;
   bool is_literal(Signed a) const;  ///< one that can be folded
 
-  void grow();
+  void grow(std::size_t size);  ///< of the hash table
 
   Program program_;
   /// Hash table with open addressing: a value's index + 1, or 0; its size is a power of two.

@@ -22,7 +22,8 @@ bool same_operations(const ir::Program& a, const ir::Program& b);
 /// A copy of a program under construction.
 class Copy {
  public:
-  explicit Copy(const ir::Program& program) : program_(program), values_(program.nodes.size()) {}
+  explicit Copy(const ir::Program& program)
+      : program_(program), builder_(program.nodes.size()), values_(program.nodes.size()) {}
 
   /// What stands for a value of the program; nothing: the same operation on the copies of its operands.
   using Rewritten = std::function<std::optional<ir::Signed>(ir::ValueId)>;
