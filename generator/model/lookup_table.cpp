@@ -172,6 +172,7 @@ Expression within_period(const Expression& argument, Points points) {
 Expression looked_up(const LookupTable& table, std::span<const Expression> arguments) {
   JD_CHECK(arguments.size() == table.axes.size(), "table '{}' has {} axes", table.name, table.axes.size());
   const bool repeats = table.beyond == Beyond::kRepeat;
+  JD_CHECK(!repeats || table.axes.size() == 1, "table '{}' repeats and has two axes", table.name);
   const std::vector<Expression> within = repeats
                                              ? std::vector{within_period(arguments[0], table.axes[0].points)}
                                              : std::vector(arguments.begin(), arguments.end());

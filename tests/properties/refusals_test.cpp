@@ -12,7 +12,7 @@ namespace {
 
 TEST(Refusals, NoValidMechanismIsRefused) {
   for (const ValidKind& kind : valid_kinds())
-    for (std::uint64_t seed = 0; seed < (draws_all_cases() ? kind.test : (kind.test + 7) / 8); ++seed)
+    for (std::uint64_t seed = 0; seed < (draws_all_cases() ? kind.test : (kind.test + 15) / 16); ++seed)
       EXPECT_EQ(refusal(valid_mechanism(kind, seed), seed), "") << kind.name << ", seed " << seed;
 }
 

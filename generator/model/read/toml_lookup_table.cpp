@@ -34,6 +34,7 @@ class LookupTableReader {
       table_.axes.assign(has_y_ ? 2 : 1, {{0, 1}});
       table_.values.assign(has_y_ ? 4 : 2, 0.0);
       table_.interpolation = Interpolation::kLinear;
+      table_.beyond = Beyond::kHold;
     }
     return table_.name.empty() ? std::nullopt : std::optional(std::move(table_));
   }
