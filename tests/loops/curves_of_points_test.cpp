@@ -7,19 +7,18 @@
 #include <string>
 #include <vector>
 
-#include "agreement/shared_data.hpp"
 #include "dynamics/equations_at.hpp"
+#include "extremes/extreme_scenes.hpp"
 #include "loops/closed_programs.hpp"
-#include "support/files.hpp"
-#include "support/temporary_folder.hpp"
 
 namespace jourdain::tests {
 namespace {
 
 constexpr double kGravity = 9.81;
+const std::string kModel = "[model]\nname = \"scene\"\n";
 
 /// A cubic spline of the curvatures at its points, which a dense system tells (Stoer and Bulirsch, Introduction to
-/// Numerical Analysis, section 2.4): natural, or periodic where `period` is given.
+/// Numerical Analysis, section 2.4): natural or periodic.
 class Spline {
  public:
   Spline(const std::vector<double>& x, const std::vector<double>& y, bool is_periodic)
@@ -80,12 +79,6 @@ std::string table(const std::vector<double>& x, const std::vector<double>& y, co
          "\ninterpolation = \"spline\"\nbeyond = \"" + beyond + "\"\n";
 }
 
-model::Mechanism read(const std::string& text) {
-  const support::TemporaryFolder folder;
-  support::write_file(folder.path() + "/scene.toml", "[model]\nname = \"scene\"\n" + text);
-  return read_model(folder.path() + "/scene.toml");
-}
-
 // Few intervals, which are all computed; more of different widths, which are searched; more of equal ones.
 const std::vector<std::vector<double>> kPoints = {
     {-1, 0.5, 1.5}, {-3, -2.5, -1, 0.5, 1, 2.5, 3.25}, {-3, -2, -1, 0, 1, 2, 3}};
@@ -98,7 +91,7 @@ TEST(CurvesOfPoints, MoveTheFollowerOfACam) {
   constexpr double kInertia = 0.02, kMass = 0.5, kStiffness = 300;
   for (std::size_t k = 0; k < kPoints.size(); ++k) {
     const Spline lift(kPoints[k], kValues[k], true);
-    const ClosedPrograms programs(read(table(kPoints[k], kValues[k], "repeat") + R"toml(
+    const ClosedPrograms programs(read_scene(kModel + table(kPoints[k], kValues[k], "repeat") + R"toml(
 [[body]]
 name = "camshaft"
 mass = 1
@@ -151,7 +144,7 @@ TEST(CurvesOfPoints, AreMotions) {
     for (std::size_t k = 0; k < kPoints.size(); ++k) {
       SCOPED_TRACE(beyond + std::to_string(k));
       const Spline motion(kPoints[k], kValues[k], beyond == "repeat");
-      const model::Mechanism scene = read(table(kPoints[k], kValues[k], beyond) + R"toml(
+      const model::Mechanism scene = read_scene(kModel + table(kPoints[k], kValues[k], beyond) + R"toml(
 [[body]]
 name = "cart"
 mass = 5
