@@ -86,7 +86,8 @@ std::vector<FileText> module_files(const PythonArguments& arguments, const Loade
     all += arguments.cpp_flags;
     for (const emit::File& file : packs->files)
       if (file.name != name + ".json") sources.push_back({file.name, file.text});
-    for (const char* header : {"pack.hpp", "ensemble.hpp", "ensemble_interface.hpp", "jourdain_ensemble.h"})
+    for (const char* header :
+         {"pack.hpp", "steppers.hpp", "ensemble.hpp", "ensemble_interface.hpp", "jourdain_ensemble.h"})
       sources.push_back({header, std::string(emit::template_text(header))});
     sources.push_back({name + "_packs.cpp", packs_text(name)});
   }

@@ -23,25 +23,9 @@
 #include <vector>
 
 #include "pack.hpp"
+#include "steppers.hpp"
 
 namespace jourdain {
-
-// Steppers of emitted code, for Ensemble::run. They can be called where the model has theirs.
-#define JOURDAIN_STEPPER(name, function)                                           \
-  struct name##_stepper {                                                          \
-    template <class Model, class State, class Input, class Real>                   \
-    auto operator()(const Model& m, State& s, const Input& u, const Real& h) const \
-        -> decltype(function(m, s, u, h)) {                                        \
-      function(m, s, u, h);                                                        \
-    }                                                                              \
-  };                                                                               \
-  inline constexpr name##_stepper name {}
-JOURDAIN_STEPPER(euler, euler_step);
-JOURDAIN_STEPPER(semi_implicit_euler, semi_implicit_euler_step);
-JOURDAIN_STEPPER(heun, heun_step);
-JOURDAIN_STEPPER(rk4, rk4_step);
-JOURDAIN_STEPPER(rk5, rk5_step);
-#undef JOURDAIN_STEPPER
 
 /// States of NAME::Model in double or float. `lanes` of them are a block, whose numbers are packs.
 template <template <class> class ModelOf, class Real = double, std::size_t lanes = natural_lanes<Real>>
@@ -131,7 +115,7 @@ class Ensemble {
 
   /// Whether all of state k was finite after every step since it was set, and its loops closed, as the model judges
   /// (loops_closed), with parameters for which that is proven (loops_proven).
-  bool trusted(std::size_t k) const { return !failed_[k] && is_proven<Model>(parameters(k), 0); }
+  bool trusted(std::size_t k) const { return !failed_[k] && detail::is_proven<Model>(parameters(k), 0); }
   std::size_t untrusted_count() const {
     std::size_t found = 0;
     for (std::size_t k = 0; k < count_; ++k) found += !trusted(k);
@@ -192,33 +176,6 @@ class Ensemble {
                   reinterpret_cast<const char*>(&part) + i * sizeof(Real), sizeof(Real));
   }
 
-  template <class M>
-  static auto is_proven(const Parameters& parameters, int) -> decltype(bool(M::loops_proven(parameters))) {
-    return M::loops_proven(parameters);
-  }
-  template <class M>
-  static bool is_proven(const Parameters&, long) {
-    return true;
-  }
-  template <class M, class = void>
-  struct HasLoops : std::false_type {};
-  template <class M>
-  struct HasLoops<M, decltype(void(M::loops_closed(std::declval<const State&>())))> : std::true_type {};
-
-  // Differences of numbers with themselves; structs have no arrays of length zero.
-  template <class S>
-  static auto add_positions(const S& state, Number& sum, int) -> decltype(void(state.y)) {
-    for (const Number& y : state.y) sum = sum + (y - y);
-  }
-  template <class S>
-  static void add_positions(const S&, Number&, long) {}
-  template <class S>
-  static auto add_velocities(const S& state, Number& sum, int) -> decltype(void(state.z)) {
-    for (const Number& z : state.z) sum = sum + (z - z);
-  }
-  template <class S>
-  static void add_velocities(const S&, Number&, long) {}
-
   template <class Stepper, class Before>
   void run_block(std::size_t index, const Stepper& stepper, Real h, std::size_t steps, const Before& before) {
     Stored& stored = blocks_[index];
@@ -237,9 +194,8 @@ class Ensemble {
         stepper(model, state, input, length, index);
       else
         stepper(model, state, input, length);
-      add_positions(state, nothing, 0);
-      add_velocities(state, nothing, 0);
-      if constexpr (HasLoops<Model>::value)
+      detail::add_nothing(state, nothing);
+      if constexpr (detail::HasLoops<Model>::value)
         for (std::size_t k = 0; k < lanes && first + k < count_; ++k)
           if (!Model::loops_closed(get<State>(state, k))) failed_[first + k] = 1;
     }

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -11,84 +10,20 @@
 #include "cart_stops_packs/cart_stops_packs_kernels.hpp"
 #include "crane_packs/crane_packs_kernels.hpp"
 #include "four_bar_packs/four_bar_packs_kernels.hpp"
-#include "jourdain/draws.hpp"
 #include "panda_packs/panda_packs_kernels.hpp"
 #include "quadrotor_packs/quadrotor_packs_kernels.hpp"
 #include "quadruped_packs/quadruped_packs_kernels.hpp"
+#include "states.hpp"
 #include "wind_turbine_packs/wind_turbine_packs_kernels.hpp"
 
 namespace jourdain::tests {
 namespace {
 
-constexpr std::size_t kCount = 11;  // no multiple of any number of lanes
-constexpr double kStep = 1e-3;
-
-/// How far numbers of states may be apart, as a share of 1 + their size.
-constexpr double kNone = 0, kRoundedSines = 1e-5;
-
-template <class State>
-double difference(const State& a, const State& b) {
-  double worst = 0;
-  const auto compare = [&worst](double x, double y) {
-    const double apart = std::fabs(x - y) / (1 + std::fabs(y));
-    if (!(apart <= worst)) worst = apart;
-  };
-  for (std::size_t i = 0; i < std::size(a.y); ++i) compare(double(a.y[i]), double(b.y[i]));
-  for (std::size_t i = 0; i < std::size(a.z); ++i) compare(double(a.z[i]), double(b.z[i]));
-  return worst;
-}
-
-/// State k and its inputs, each its own.
-template <class Ensemble>
-typename Ensemble::State start(const typename Ensemble::Model& model, std::size_t k) {
-  auto state = initial_state(model);
-  std::uint64_t number = 0;
-  for (auto& z : state.z) z += static_cast<std::decay_t<decltype(z)>>(0.3 * normal(1, k, number++));
-  return state;
-}
-template <class Ensemble>
-typename Ensemble::Input input(std::size_t k) {
-  typename Ensemble::Input input{};
-  if constexpr (Ensemble::Model::input_count > 0) {
-    std::uint64_t number = 0;
-    for (auto& u : input.u) u = static_cast<std::decay_t<decltype(u)>>(normal(2, k, number++));
-  }
-  return input;
-}
-
-template <class Ensemble>
-Ensemble started() {
-  Ensemble ensemble(kCount);
-  const typename Ensemble::Model model;
-  for (std::size_t k = 0; k < kCount; ++k) {
-    ensemble.set_state(k, start<Ensemble>(model, k));
-    ensemble.set_input(k, input<Ensemble>(k));
-  }
-  return ensemble;
-}
-
-template <template <class> class Model, class Real, std::size_t lanes>
-void expect_scalars(double tolerance) {
-  using Many = Ensemble<Model, Real, lanes>;
-  Many ensemble = started<Many>();
-  ensemble.run(rk4, static_cast<Real>(kStep), 60, 2);
-  const Model<Real> model;
-  for (std::size_t k = 0; k < kCount; ++k) {
-    auto state = start<Many>(model, k);
-    const auto begin = state;
-    for (int i = 0; i < 60; ++i) rk4_step(model, state, input<Many>(k), static_cast<Real>(kStep));
-    EXPECT_GT(difference(begin, state), 1e-6) << k;
-    EXPECT_LE(difference(ensemble.state(k), state), tolerance) << k << " of " << lanes << " lanes";
-    EXPECT_TRUE(ensemble.trusted(k)) << k;
-  }
-  EXPECT_EQ(ensemble.untrusted_count(), 0u);
-}
-
 template <template <class> class Model>
 void expect_scalars_of(double tolerance) {
-  expect_scalars<Model, double, 2>(tolerance);
-  expect_scalars<Model, double, 8>(tolerance);
-  expect_scalars<Model, float, 4>(kRoundedSines);
+  expect_scalars<Ensemble<Model, double, 2>>(tolerance);
+  expect_scalars<Ensemble<Model, double, 8>>(tolerance);
+  expect_scalars<Ensemble<Model, float, 4>>(kRoundedSines);
 }
 
 TEST(Ensembles, HaveTheBitsOfScalars) {
@@ -128,7 +63,7 @@ TEST(Ensembles, ChooseInEachLane) { expect_scalars_of<cart_stops_packs::Model>(k
 
 TEST(Ensembles, TakeEntriesOfTables) { expect_scalars_of<wind_turbine_packs::Model>(kNone); }
 
-TEST(Ensembles, CloseLoops) { expect_scalars<four_bar_packs::Model, double, 4>(kNone); }
+TEST(Ensembles, CloseLoops) { expect_scalars<Ensemble<four_bar_packs::Model, double, 4>>(kNone); }
 
 TEST(Ensembles, DependOnNeitherThreadsNorNeighbours) {
   using Many = Ensemble<panda_packs::Model, double, 4>;
@@ -240,26 +175,6 @@ TEST(Ensembles, TakeEveryStepper) {
         cart_pole_ensemble::Accelerations<double> own;
         for (int i = 0; i < 20; ++i) rodas4_step(model, state, held, kStep, own);
       });
-}
-
-/// States of which `k` starts otherwise: it alone must not be trusted, and nothing else moves.
-template <class Many, class Spoil>
-void expect_untrusted(std::size_t k, const Spoil& spoil) {
-  Many ensemble = started<Many>(), intact = started<Many>();
-  auto spoiled = ensemble.state(k);
-  spoil(spoiled);
-  ensemble.set_state(k, spoiled);
-  ensemble.run(rk4, kStep, 5);
-  intact.run(rk4, kStep, 5);
-  for (std::size_t i = 0; i < kCount; ++i) {
-    EXPECT_EQ(ensemble.trusted(i), i != k) << i;
-    if (i != k) {
-      EXPECT_EQ(difference(ensemble.state(i), intact.state(i)), 0) << i;
-    }
-  }
-  EXPECT_EQ(ensemble.untrusted_count(), 1u);
-  ensemble.set_state(k, intact.state(k));
-  EXPECT_EQ(ensemble.untrusted_count(), 0u);
 }
 
 TEST(Ensembles, SayWhichStatesAreNoNumbers) {

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// Emitted steppers as objects, and how what they end in is judged: what ensembles of all kinds have in common.
+#pragma once
+
+#include <type_traits>
+#include <utility>
+
+#ifndef JOURDAIN_FUNCTION
+#define JOURDAIN_FUNCTION
+#endif
+
+namespace jourdain {
+
+// Steppers of emitted code, for `run` of an ensemble. They can be called where the model has theirs.
+#define JOURDAIN_STEPPER(name, function)                                                             \
+  struct name##_stepper {                                                                            \
+    template <class Model, class State, class Input, class Real>                                     \
+    JOURDAIN_FUNCTION auto operator()(const Model& m, State& s, const Input& u, const Real& h) const \
+        -> decltype(function(m, s, u, h)) {                                                          \
+      function(m, s, u, h);                                                                          \
+    }                                                                                                \
+  };                                                                                                 \
+  inline constexpr name##_stepper name {}
+JOURDAIN_STEPPER(euler, euler_step);
+JOURDAIN_STEPPER(semi_implicit_euler, semi_implicit_euler_step);
+JOURDAIN_STEPPER(heun, heun_step);
+JOURDAIN_STEPPER(rk4, rk4_step);
+JOURDAIN_STEPPER(rk5, rk5_step);
+#undef JOURDAIN_STEPPER
+
+namespace detail {
+
+template <class Model>
+auto is_proven(const typename Model::Parameters& parameters, int)
+    -> decltype(bool(Model::loops_proven(parameters))) {
+  return Model::loops_proven(parameters);
+}
+template <class Model>
+bool is_proven(const typename Model::Parameters&, long) {
+  return true;
+}
+
+template <class Model, class = void>
+struct HasLoops : std::false_type {};
+template <class Model>
+struct HasLoops<Model, decltype(void(Model::loops_closed(std::declval<const typename Model::State&>())))>
+    : std::true_type {};
+
+// Differences of numbers with themselves; structs have no arrays of length zero.
+template <class State, class Number>
+JOURDAIN_FUNCTION auto add_positions(const State& state, Number& sum, int) -> decltype(void(state.y)) {
+  for (const Number& y : state.y) sum = sum + (y - y);
+}
+template <class State, class Number>
+JOURDAIN_FUNCTION void add_positions(const State&, Number&, long) {}
+template <class State, class Number>
+JOURDAIN_FUNCTION auto add_velocities(const State& state, Number& sum, int) -> decltype(void(state.z)) {
+  for (const Number& z : state.z) sum = sum + (z - z);
+}
+template <class State, class Number>
+JOURDAIN_FUNCTION void add_velocities(const State&, Number&, long) {}
+
+/// Stays zero where all numbers that are added are finite.
+template <class State, class Number>
+JOURDAIN_FUNCTION void add_nothing(const State& state, Number& sum) {
+  add_positions(state, sum, 0);
+  add_velocities(state, sum, 0);
+}
+
+}  // namespace detail
+}  // namespace jourdain
