@@ -65,7 +65,7 @@ struct StepEach {
 
   JOURDAIN_FUNCTION void operator()(std::size_t k) const {
     if (parameters)
-      step(Model(load<typename Model::Parameters>(parameters, count, k)), k);
+      step(with_parameters(*model, load<typename Model::Parameters>(parameters, count, k), 0), k);
     else
       step(*model, k);
   }
@@ -141,6 +141,12 @@ class DeviceEnsemble {
       has_own_ = true;
     }
     put(parameters_, k, parameters);
+  }
+
+  /// The data of the functions that the user of emitted code defines, Model::Functions, of all states.
+  template <class Functions>
+  void set_functions(const Functions& functions) {
+    model_.write()[0].functions = functions;
   }
 
   /// `steps` steps of length h (s) of all states. Before each one before(k, step, state, input) is called on the device,

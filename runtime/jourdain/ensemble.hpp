@@ -83,6 +83,12 @@ class Ensemble {
     blocks_[k / lanes].has_new_parameters = true;
   }
 
+  /// The data of the functions that the user of emitted code defines, BlockModel::Functions, of all states.
+  template <class Functions>
+  void set_functions(const Functions& functions) {
+    for (BlockModel& model : models_) model.functions = functions;
+  }
+
   /// `steps` steps of length h (s). Before each of a block `before(block, step)` may set the block's inputs by its
   /// state. Blocks are shared evenly among the threads (0: as many as the machine runs at once), which call `before`
   /// and `stepper` at the same time for different ones. A stepper is called with model, state, input and h, and where
@@ -179,7 +185,8 @@ class Ensemble {
   template <class Stepper, class Before>
   void run_block(std::size_t index, const Stepper& stepper, Real h, std::size_t steps, const Before& before) {
     Stored& stored = blocks_[index];
-    if (stored.has_new_parameters) models_[index] = BlockModel(parameters_[index]);
+    if (stored.has_new_parameters)
+      models_[index] = detail::with_parameters(models_[index], parameters_[index], 0);
     stored.has_new_parameters = false;
     const BlockModel& model = models_[model_of(index)];
     auto state = stored.state;

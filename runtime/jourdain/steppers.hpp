@@ -67,5 +67,17 @@ JOURDAIN_FUNCTION void add_nothing(const State& state, Number& sum) {
   add_velocities(state, sum, 0);
 }
 
+/// A model of these parameters that calls its user's functions with the data that `model` has.
+template <class Model, class Parameters, class = typename Model::Functions>
+JOURDAIN_FUNCTION Model with_parameters(const Model& model, const Parameters& parameters, int) {
+  Model result(parameters);
+  result.functions = model.functions;
+  return result;
+}
+template <class Model, class Parameters>
+JOURDAIN_FUNCTION Model with_parameters(const Model&, const Parameters& parameters, long) {
+  return Model(parameters);
+}
+
 }  // namespace detail
 }  // namespace jourdain
