@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <tuple>
+#include <utility>
 
 #include "compile/program_cost.hpp"
 #include "dynamics/absolute_rates.hpp"
@@ -30,10 +32,17 @@ constexpr std::size_t kMostMore = 2;
 /// Depths in a row without a saving that end a search.
 constexpr std::size_t kPatience = 3;
 
+ir::Program lowered(const dynamics::Equations& equations) {
+  std::vector<lowering::Target> targets;
+  for (std::size_t i = 0; i < equations.zdot.size(); ++i)
+    targets.push_back({"zdot", static_cast<int>(i), -1, equations.zdot[i]});
+  return lowering::lower(equations.statements, targets, "zdot");
+}
+
 class Choice {
  public:
   Choice(const model::Mechanism& mechanism, const dynamics::DerivationOptions& options)
-      : mechanism_(mechanism), options_(options) {
+      : mechanism_(mechanism), options_(options), ways_(mechanism, options.link_tree) {
     kinematics::Statements statements;
     const dynamics::Scene scene(mechanism, options.link_tree, statements);
     moves_in_planes_ = dynamics::moves_in_planes(scene);
@@ -64,6 +73,7 @@ class Choice {
     bool planar = false;
     PlanarForm form = PlanarForm::kWorkingFrames;
 
+    bool operator==(const Way&) const = default;
     friend bool operator<(const Way& a, const Way& b) {
       return std::tie(a.planar, a.form, a.links) < std::tie(b.planar, b.form, b.links);
     }
@@ -159,16 +169,20 @@ class Choice {
 
   std::size_t operations(const Way& way) {
     if (const auto known = counted_.find(way); known != counted_.end()) return known->second;
-    return counted_[way] =
-               has_link_equations_ ? cost(way).arithmetic : ir::count_operations(program(way)).arithmetic();
+    if (has_link_equations_) return counted_[way] = cost(way).arithmetic;
+    ir::Program zdot = program(way);
+    const std::size_t count = counted_[way] = ir::count_operations(zdot).arithmetic();
+    if (!cheapest_ || count < counted_.at(cheapest_->first)) cheapest_ = {way, std::move(zdot)};
+    return count;
   }
 
   /// Of the accelerations, before any pass.
   ir::Program program(const Way& way) {
+    if (cheapest_ && cheapest_->first == way) return cheapest_->second;
     options_.articulated = way.links;
     options_.planar = way.planar;
     options_.planar_form = way.form;
-    return lower_accelerations(mechanism_, options_);
+    return lowered(ways_.by(options_));
   }
 
   /// First links of the branches: at the ground and where a link has several children.
@@ -208,6 +222,8 @@ class Choice {
 
   const model::Mechanism& mechanism_;
   dynamics::DerivationOptions options_;
+  dynamics::AccelerationWays ways_;
+  std::optional<std::pair<Way, ir::Program>> cheapest_;
   bool moves_in_planes_ = false, has_link_equations_ = false;
   std::size_t velocities_ = 0;
   std::vector<std::size_t> depth_, parent_, children_;
@@ -221,13 +237,9 @@ Articulation choose_articulation(const model::Mechanism& mechanism,
   return Choice(mechanism, options).choose();
 }
 
-ir::Program lower_accelerations(const model::Mechanism& mechanism, dynamics::DerivationOptions options) {
-  options.accelerations_only = true;
-  const dynamics::Equations equations = dynamics::derive_equations(mechanism, options);
-  std::vector<lowering::Target> targets;
-  for (std::size_t i = 0; i < equations.zdot.size(); ++i)
-    targets.push_back({"zdot", static_cast<int>(i), -1, equations.zdot[i]});
-  return lowering::lower(equations.statements, targets, "zdot");
+ir::Program lower_accelerations(const model::Mechanism& mechanism,
+                                const dynamics::DerivationOptions& options) {
+  return lowered(dynamics::AccelerationWays(mechanism, options.link_tree).by(options));
 }
 
 std::string accuracy_sentence(const Articulation& articulation) {

@@ -50,10 +50,6 @@ class Derivation {
       derive_forces(applied);
       return std::move(equations_);
     }
-    if (options_.accelerations_only) {
-      equations_.zdot = with_states(accelerations(applied), applied);
-      return std::move(equations_);
-    }
     equations_.ydot = position_rate();
     derive_forces(applied);
     if (mechanism_.loops.empty()) equations_.zdot = with_states(accelerations(applied), applied);
@@ -74,6 +70,17 @@ class Derivation {
       equations_.outputs = derive_outputs(scene_, equations_, equations_.zdot, applied);
     equations_.kinematics = derive_kinematic_functions(scene_, [this] { return gravity_forces(); });
     return std::move(equations_);
+  }
+
+  const Equations& derive_accelerations(const DerivationOptions& options) {
+    if (!applied_) {
+      applied_ = derive_applied_forces(scene_, Inputs::kGiven);
+      common_statements_ = statements_.all().size();
+    }
+    statements_.rewind(common_statements_);
+    options_ = options;
+    equations_.zdot = with_states(accelerations(*applied_), *applied_);
+    return equations_;
   }
 
  private:
@@ -366,12 +373,28 @@ class Derivation {
   kinematics::Statements& statements_;
   std::size_t count_;
   std::optional<LinkEquations> links_;
+  std::optional<AppliedForces> applied_;  ///< of all ways
+  std::size_t common_statements_ = 0;
 };
 
 }  // namespace
 
 Equations derive_equations(const model::Mechanism& mechanism, const DerivationOptions& options) {
   return Derivation(mechanism, options).derive();
+}
+
+struct AccelerationWays::Derived {
+  Derivation derivation;
+};
+
+AccelerationWays::AccelerationWays(const model::Mechanism& mechanism,
+                                   const kinematics::LinkTreeOptions& options)
+    : derived_(new Derived{Derivation(mechanism, {.link_tree = options})}) {}
+
+AccelerationWays::~AccelerationWays() = default;
+
+const Equations& AccelerationWays::by(const DerivationOptions& options) {
+  return derived_->derivation.derive_accelerations(options);
 }
 
 std::vector<Ex> sampled_values(const Equations& equations) {

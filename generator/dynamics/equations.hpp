@@ -1,6 +1,7 @@
 // M(y), k̄ and q̄ of a tree, symbolically: composite bodies inward, rates and gravity outward, wrenches inward.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -33,9 +34,8 @@ struct DerivationOptions {
       false;  ///< accelerations of links instead of joints where the scene has them in `planar_form`
   PlanarForm planar_form = PlanarForm::kWorkingFrames;
   FromLinkEquations from_links;
-  bool accelerations_only = false;  ///< nothing but zdot
-  bool closures_only = false;       ///< nothing but the closures of loops
-  bool forces_only = false;         ///< nothing but M, k_bar, q_bar, tau, kinetic_energy
+  bool closures_only = false;  ///< nothing but the closures of loops
+  bool forces_only = false;    ///< nothing but M, k_bar, q_bar, tau, kinetic_energy
   /// By derive_forces_by_links where no link is free, instead of derive_generalized_forces.
   bool k_bar_by_links = false, tau_by_links = false;
   bool for_derivatives = false;  ///< fills in residual, load, rates of closures; outputs take ż, λ
@@ -96,6 +96,20 @@ struct Equations {
 };
 
 Equations derive_equations(const model::Mechanism& mechanism, const DerivationOptions& options = {});
+
+/// Accelerations of a tree by one way after another; links, frames and applied forces are derived once.
+class AccelerationWays {
+ public:
+  AccelerationWays(const model::Mechanism& mechanism, const kinematics::LinkTreeOptions& options);
+  ~AccelerationWays();
+
+  /// Nothing but zdot and its statements, until the next call. Options of the links are those of the first.
+  const Equations& by(const DerivationOptions& options);
+
+ private:
+  struct Derived;
+  std::unique_ptr<Derived> derived_;
+};
 
 /// The values of `samples`.
 std::vector<Ex> sampled_values(const Equations& equations);

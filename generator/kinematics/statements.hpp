@@ -44,6 +44,11 @@ class Statements {
   /// Binds the upper triangle of a symmetric matrix.
   Matrix3 bind_symmetric(const std::string& name, const Matrix3& value);
 
+  /// Forgets statements from number `count` on, for others in their place.
+  void rewind(std::size_t count) {
+    statements_.erase(statements_.begin() + static_cast<std::ptrdiff_t>(count), statements_.end());
+  }
+
   const std::vector<Leaf>& leaves() const { return leaves_; }
   const std::vector<Statement>& all() const { return statements_; }
 

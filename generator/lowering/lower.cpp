@@ -31,6 +31,12 @@ cln::cl_R to_real(const Ex& number) { return cln::realpart(ex_to<GiNaC::numeric>
 double to_double(const Ex& number) { return support::nearest_double(to_real(number)); }
 
 /// Never iterated: the hashes change from run to run.
+struct ExHash {
+  std::size_t operator()(const Ex& e) const { return e.gethash(); }
+};
+struct SameEx {
+  bool operator()(const Ex& a, const Ex& b) const { return a.is_equal(b); }
+};
 struct SymbolHash {
   std::size_t operator()(const GiNaC::symbol& s) const { return s.gethash(); }
 };
@@ -44,15 +50,15 @@ using SymbolMap = std::unordered_map<GiNaC::symbol, Value, SymbolHash, SameSymbo
 struct Key {
   std::string text;
   bool negative = false;
-
-  friend bool operator<(const Key& a, const Key& b) { return a.text < b.text; }
 };
 
+/// An expression as it is lowered: operands in the order of their keys, each key told once.
 struct Operand {
-  Key key;
   Ex value;
+  Key key;
+  std::vector<Operand> operands;  ///< of powers the base alone
 
-  friend bool operator<(const Operand& a, const Operand& b) { return a.key < b.key; }
+  friend bool operator<(const Operand& a, const Operand& b) { return a.key.text < b.key.text; }
 };
 
 class Lowering {
@@ -102,30 +108,59 @@ class Lowering {
     return builder_.leaf(it->second.kind, it->second.index);
   }
 
-  Key key(const Ex& e) {
-    if (is_a<GiNaC::numeric>(e)) return {fmt::format("#{:a}", std::fabs(to_double(e))), to_double(e) < 0};
-    if (is_a<GiNaC::symbol>(e)) return symbol_key(ex_to<GiNaC::symbol>(e));
-    if (is_a<GiNaC::add>(e)) return sum_key(e);
-    if (is_a<GiNaC::mul>(e)) return product_key(e);
-    const Key argument = key(e.op(0));
-    if (is_a<GiNaC::power>(e)) {
-      const bool odd = e.op(1).info(GiNaC::info_flags::odd);
-      return {fmt::format("(^{} {:a})", argument.text, to_double(e.op(1))), odd && argument.negative};
+  /// Telling a number's double takes longer than finding it again.
+  struct Number {
+    Key key;
+    std::optional<Signed> literal;  ///< where it was lowered
+  };
+  Number& number(const Ex& e) {
+    const auto [it, is_new] = numbers_.try_emplace(e);
+    if (is_new) {
+      const double value = to_double(e);
+      it->second.key = {fmt::format("#{:a}", std::fabs(value)), value < 0};
     }
-    if (const auto function = kinematics::function_in(e)) return function_key(*function, e);
-    const bool is_sine = is_ex_the_function(e, GiNaC::sin);
-    return {fmt::format("({}{})", is_sine ? "sin" : "cos", argument.text), is_sine && argument.negative};
+    return it->second;
+  }
+  Signed literal(const Ex& e) {
+    Number& known = number(e);
+    if (!known.literal) known.literal = builder_.literal(to_real(e));
+    return *known.literal;
   }
 
-  /// Signs inside belong to the function.
-  Key function_key(support::Function function, const Ex& e) {
-    Key call{fmt::format("({}", support::facts_of(function).name)};
-    for (std::size_t i = 0; i < e.nops(); ++i) {
-      const Key operand = key(e.op(i));
-      call.text += (operand.negative ? " -" : " ") + operand.text;
+  Operand sorted(const Ex& e) {
+    Operand result{e, {}, {}};
+    if (is_a<GiNaC::numeric>(e)) {
+      result.key = number(e).key;
+    } else if (is_a<GiNaC::symbol>(e)) {
+      result.key = symbol_key(ex_to<GiNaC::symbol>(e));
+    } else if (is_a<GiNaC::add>(e)) {
+      sort_sum(result);
+    } else if (is_a<GiNaC::mul>(e)) {
+      sort_product(result);
+    } else if (is_a<GiNaC::power>(e)) {
+      result.operands.push_back(sorted(e.op(0)));
+      const Key& base = result.operands[0].key;
+      const bool odd = e.op(1).info(GiNaC::info_flags::odd);
+      result.key = {fmt::format("(^{} {:a})", base.text, to_double(e.op(1))), odd && base.negative};
+    } else {
+      sort_call(result);
     }
-    call.text += ")";
-    return call;
+    return result;
+  }
+
+  void sort_call(Operand& call) {
+    for (std::size_t i = 0; i < call.value.nops(); ++i) call.operands.push_back(sorted(call.value.op(i)));
+    if (const auto function = kinematics::function_in(call.value)) {
+      // Signs inside belong to the function.
+      call.key.text = fmt::format("({}", support::facts_of(*function).name);
+      for (const Operand& operand : call.operands)
+        call.key.text += (operand.key.negative ? " -" : " ") + operand.key.text;
+      call.key.text += ")";
+      return;
+    }
+    const bool is_sine = is_ex_the_function(call.value, GiNaC::sin);
+    const Key& argument = call.operands[0].key;
+    call.key = {fmt::format("({}{})", is_sine ? "sin" : "cos", argument.text), is_sine && argument.negative};
   }
 
   /// Not through `symbol`: that would number leaves in GiNaC's order.
@@ -136,103 +171,93 @@ class Lowering {
     return {fmt::format("v{:08}", value.value.value), value.negative};
   }
 
-  Key sum_key(const Ex& e) {
-    const auto [terms, negative] = sorted_terms(e);
-    Key sum{"(", negative};
-    for (const Operand& term : terms)
-      sum.text += (term.key.negative == sum.negative ? "+" : "-") + term.key.text;
-    sum.text += ")";
-    return sum;
-  }
-
-  Key product_key(const Ex& e) {
-    Key product;
-    const char* separator = "";
-    for (const Operand& factor : sorted_operands(e)) {
-      product.negative = product.negative != factor.key.negative;
-      if (factor.key.text == "#0x1p+0") continue;  // a mere sign
-      product.text += separator + factor.key.text;
-      separator = "*";
-    }
-    return product;
-  }
-
   std::vector<Operand> sorted_operands(const Ex& e) {
     std::vector<Operand> operands;
-    for (std::size_t i = 0; i < e.nops(); ++i) operands.push_back({key(e.op(i)), e.op(i)});
+    operands.reserve(e.nops());
+    for (std::size_t i = 0; i < e.nops(); ++i) operands.push_back(sorted(e.op(i)));
     std::stable_sort(operands.begin(), operands.end());
     return operands;
   }
 
-  struct Terms {
-    std::vector<Operand> operands;
-    bool negative = false;  ///< the sign that is pulled out of the sum
-  };
-
-  /// Different names may stand for one value and its negative. Such terms have one key; the sign is that of
-  /// the first ones that do not cancel, and terms with it come first.
-  Terms sorted_terms(const Ex& e) {
-    Terms terms{sorted_operands(e)};
+  /// Different names may stand for one value and its negative. Such terms have one key; the sign that is pulled out of
+  /// the sum is that of the first ones that do not cancel, and terms with it come first.
+  void sort_sum(Operand& sum) {
+    std::vector<Operand>& terms = sum.operands = sorted_operands(sum.value);
     int surplus = 0;
-    for (std::size_t i = 0; i < terms.operands.size() && surplus == 0; ++i)
-      for (const Operand& term : terms.operands)
-        if (term.key.text == terms.operands[i].key.text) surplus += term.key.negative ? -1 : 1;
-    terms.negative = surplus < 0;
-    std::stable_sort(terms.operands.begin(), terms.operands.end(), [&](const Operand& a, const Operand& b) {
-      if (a.key.text != b.key.text) return a.key < b.key;
-      return a.key.negative == terms.negative && b.key.negative != terms.negative;
+    for (std::size_t i = 0; i < terms.size() && surplus == 0; ++i)
+      for (const Operand& term : terms)
+        if (term.key.text == terms[i].key.text) surplus += term.key.negative ? -1 : 1;
+    const bool negative = sum.key.negative = surplus < 0;
+    std::stable_sort(terms.begin(), terms.end(), [negative](const Operand& a, const Operand& b) {
+      if (a.key.text != b.key.text) return a < b;
+      return a.key.negative == negative && b.key.negative != negative;
     });
-    return terms;
+    sum.key.text = "(";
+    for (const Operand& term : terms)
+      sum.key.text += (term.key.negative == negative ? "+" : "-") + term.key.text;
+    sum.key.text += ")";
   }
 
-  Signed lower(const Ex& e) {
-    if (is_a<GiNaC::numeric>(e)) return builder_.literal(to_real(e));
-    if (is_a<GiNaC::symbol>(e)) return symbol(ex_to<GiNaC::symbol>(e));
-    if (is_a<GiNaC::add>(e)) return sum(e);
-    if (is_a<GiNaC::mul>(e)) return product(e);
-    if (is_a<GiNaC::power>(e)) return power(e.op(0), e.op(1));
-    if (is_ex_the_function(e, GiNaC::sin)) return builder_.unary(Op::kSin, lower(e.op(0)));
-    if (is_ex_the_function(e, GiNaC::cos)) return builder_.unary(Op::kCos, lower(e.op(0)));
-    if (const auto function = kinematics::function_in(e)) {
-      const Signed first = lower(e.op(0));
-      return builder_.function(*function, first, e.nops() == 1 ? first : lower(e.op(1)));
+  void sort_product(Operand& product) {
+    product.operands = sorted_operands(product.value);
+    const char* separator = "";
+    for (const Operand& factor : product.operands) {
+      product.key.negative = product.key.negative != factor.key.negative;
+      if (factor.key.text == "#0x1p+0") continue;  // a mere sign
+      product.key.text += separator + factor.key.text;
+      separator = "*";
     }
-    JD_CHECK(false, "cannot lower '{}'", (std::ostringstream() << e).str());
+  }
+
+  Signed lower(const Ex& e) { return lower(sorted(e)); }
+
+  Signed lower(const Operand& e) {
+    if (is_a<GiNaC::numeric>(e.value)) return literal(e.value);
+    if (is_a<GiNaC::symbol>(e.value)) return symbol(ex_to<GiNaC::symbol>(e.value));
+    if (is_a<GiNaC::add>(e.value)) return sum(e.operands);
+    if (is_a<GiNaC::mul>(e.value)) return product(e.operands);
+    if (is_a<GiNaC::power>(e.value)) return power(e.operands[0], e.value.op(1));
+    if (is_ex_the_function(e.value, GiNaC::sin)) return builder_.unary(Op::kSin, lower(e.operands[0]));
+    if (is_ex_the_function(e.value, GiNaC::cos)) return builder_.unary(Op::kCos, lower(e.operands[0]));
+    if (const auto function = kinematics::function_in(e.value)) {
+      const Signed first = lower(e.operands[0]);
+      return builder_.function(*function, first, e.operands.size() == 1 ? first : lower(e.operands[1]));
+    }
+    JD_CHECK(false, "cannot lower '{}'", (std::ostringstream() << e.value).str());
     return {};
   }
 
-  Signed sum(const Ex& e) {
-    const std::vector<Operand> terms = sorted_terms(e).operands;
-    Signed total = lower(terms[0].value);
-    for (std::size_t i = 1; i < terms.size(); ++i) total = builder_.add(total, lower(terms[i].value));
+  Signed sum(const std::vector<Operand>& terms) {
+    Signed total = lower(terms[0]);
+    for (std::size_t i = 1; i < terms.size(); ++i) total = builder_.add(total, lower(terms[i]));
     return total;
   }
 
   /// Symbolic factors in order, then the numeric one, then the denominator.
-  Signed product(const Ex& e) {
+  Signed product(const std::vector<Operand>& factors) {
     std::optional<Signed> numerator, denominator;
     const auto multiply = [this](std::optional<Signed>& side, Signed factor) {
       side = side ? builder_.multiply(*side, factor) : factor;
     };
     Ex coefficient = 1;
-    for (const Operand& factor : sorted_operands(e)) {
+    for (const Operand& factor : factors) {
       if (is_a<GiNaC::numeric>(factor.value))
         coefficient = coefficient * factor.value;
       else if (is_a<GiNaC::power>(factor.value) && factor.value.op(1).info(GiNaC::info_flags::negative))
-        multiply(denominator, power(factor.value.op(0), -factor.value.op(1)));
+        multiply(denominator, power(factor.operands[0], -factor.value.op(1)));
       else
-        multiply(numerator, lower(factor.value));
+        multiply(numerator, lower(factor));
     }
     if (!numerator)
-      numerator = builder_.literal(to_real(coefficient));
+      numerator = literal(coefficient);
     else if (coefficient.is_equal(-1))
       numerator = -*numerator;
     else if (!coefficient.is_equal(1))
-      numerator = builder_.multiply(*numerator, builder_.literal(to_real(coefficient)));
+      numerator = builder_.multiply(*numerator, literal(coefficient));
     return denominator ? builder_.divide(*numerator, *denominator) : *numerator;
   }
 
-  Signed power(const Ex& base, const Ex& exponent) {
+  Signed power(const Operand& base, const Ex& exponent) {
     JD_CHECK(is_a<GiNaC::numeric>(exponent), "exponent is not a number");
     if (ex_to<GiNaC::numeric>(exponent).is_negative()) {
       const Signed denominator = power(base, -exponent);
@@ -258,6 +283,7 @@ class Lowering {
   SymbolMap<const Ex*> bound_;
   std::unordered_set<GiNaC::symbol, SymbolHash, SameSymbol> needed_;
   SymbolMap<Signed> lowered_;
+  std::unordered_map<Ex, Number, ExHash, SameEx> numbers_;
 };
 
 }  // namespace
