@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <set>
 #include <string>
@@ -17,17 +18,21 @@
 #include <vector>
 
 #include "commands/content_hash.hpp"
+#include "commands/number_checks.hpp"
 #include "compile/start_check.hpp"
 #include "loops/plan/plan.hpp"
 #include "loops/plan/plan_text.hpp"
 #include "model/names.hpp"
 #include "model/read/members.hpp"
+#include "model/read/xml_text.hpp"
 #include "support/files.hpp"
 #include "validate/snapping.hpp"
 
 namespace jourdain::commands {
 
 namespace {
+
+constexpr const char* kRobotEndings[] = {".urdf", ".sdf", ".world", ".mjcf", ".xml"};
 
 /// Emitted files name no folder: they are the same from wherever the command was called.
 std::string printed_path(const std::string& path) { return std::filesystem::path(path).filename().string(); }
@@ -87,6 +92,34 @@ void check_called(const model::Mechanism& mechanism, support::Diagnostics& diagn
                         "a 'prefix' of their imports tells them apart");
 }
 
+bool is_robot_file(const support::SourceFile& file) {
+  return std::any_of(std::begin(kRobotEndings), std::end(kRobotEndings),
+                     [&file](const char* ending) { return file.path.ends_with(ending); });
+}
+
+bool is_mjcf(const support::SourceFile& file) {
+  return is_robot_file(file) && (file.path.ends_with(".mjcf") || model::first_element(file.text) == "mujoco");
+}
+
+/// Options that change how robot files are read, where neither the description nor what it imports is one that they
+/// change.
+void refuse_robot_options(const model::ReadOptions& read, support::Diagnostics& diagnostics) {
+  const auto& files = diagnostics.files();
+  const bool robots = std::any_of(files.begin(), files.end(), is_robot_file);
+  const bool mimics = std::any_of(files.begin(), files.end(), [](const support::SourceFile& file) {
+    return is_robot_file(file) && !is_mjcf(file);
+  });
+  if (!read.damping && !robots)
+    diagnostics.error({}, "joint damping can be left out of URDF, SDF and MJCF files only",
+                      "change the joints' 'damping' in the file");
+  if (read.friction && !robots)
+    diagnostics.error({}, "joint friction can be asked for with URDF, SDF and MJCF files only",
+                      "declare the joints' 'friction' in the file");
+  if (!read.mimic && !mimics)
+    diagnostics.error({}, "joints that mimic others can be let free in URDF and SDF files only",
+                      "change what couples them in the file");
+}
+
 void refuse_warnings(support::Diagnostics& diagnostics) {
   const auto is_warning = [](const support::Diagnostic& d) {
     return d.severity == support::Severity::kWarning;
@@ -111,7 +144,7 @@ void ModelArguments::add_to(CLI::App& command) {
   command.add_flag("!--no-mimic", read.mimic, "URDF, SDF: joints that mimic others move freely");
   CLI::Option* snap =
       command.add_option("--snap", read.snap, "angles, rad, and axes this near to a right angle are that")
-          ->check(CLI::Range(0.0, model::kMaximumSnap))
+          ->check(number_between(0, model::kMaximumSnap))
           ->capture_default_str();
   command
       .add_flag_callback(
@@ -134,6 +167,7 @@ std::optional<LoadedMechanism> load(const ModelArguments& arguments, External ex
   if (!arguments.root.empty())
     read.root = arguments.root == "free" ? model::RootJoint::kFree : model::RootJoint::kFixed;
   std::optional<model::Mechanism> mechanism = model::read_mechanism(diagnostics, read);
+  if (mechanism) refuse_robot_options(read, diagnostics);
   if (mechanism) check_inertia(*mechanism, diagnostics);
   if (mechanism) check_called(*mechanism, diagnostics);
   if (mechanism) check_start(*mechanism, diagnostics);
@@ -148,7 +182,7 @@ std::optional<LoadedMechanism> load(const ModelArguments& arguments, External ex
   if (arguments.strict) refuse_warnings(diagnostics);
   fmt::print(stderr, "{}", diagnostics.format());
   if (!mechanism || diagnostics.has_errors()) return std::nullopt;
-  LoadedMechanism loaded{std::move(*mechanism), {}};
+  LoadedMechanism loaded{std::move(*mechanism), read, {}};
   loaded.limits = limits_of(loaded.mechanism, diagnostics);
   loaded.options.name = arguments.name.empty() ? model::cpp_name(loaded.mechanism.name) : arguments.name;
   loaded.options.loops = std::move(plan);

@@ -35,6 +35,7 @@ struct ModelArguments {
 
 struct LoadedMechanism {
   model::Mechanism mechanism;
+  model::ReadOptions read;                           ///< how it was read
   CompileOptions options;                            ///< name, path, hash and the plan of the loops filled in
   std::map<std::string, model::Limits> limits = {};  ///< URDF: of joints, by name
   std::vector<std::string> sources = {};             ///< paths of the description and of all that it imports

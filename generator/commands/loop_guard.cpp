@@ -10,8 +10,10 @@ namespace jourdain::commands {
 
 namespace {
 
-/// m; the next closing makes good what is less. What rounding leaves is far below.
-constexpr double kOpen = 1e-9;
+/// m; the next closing makes good what is less. What rounding leaves is below, in float, too.
+constexpr double kOpen = 1e-9, kRoundings = 32;
+/// m, rad: by how much rows that follow from the others may be left open, and so many times what the plan knows.
+constexpr double kAskew = 2e-3, kNearly = 10;
 
 }  // namespace
 
@@ -22,8 +24,16 @@ std::string LoopGuard::problem(const studies::Point<double>& point) const {
   const jourdain_closing closing = flow_.last_closing();
   if (!(closing.regularity >= flow_.table().least_regularity)) return singular(point.t, closing.regularity);
   if (closing.beyond > 0) return out_of_range(point);
+  if (!loaded_.plan()->redundant.empty()) {
+    const double open = flow_.residuals(point).position;
+    if (open > std::max(kAskew, kNearly * loaded_.plan()->disagreement))
+      return fmt::format(
+          "at t = {:g} s constraints contradict each other: those that follow from the others are open by "
+          "{:.2g} m",
+          point.t, open);
+  }
   if (closing.opening <= flow_.table().greatest_opening) return "";
-  if (!(closing.left_open <= kOpen))
+  if (!(closing.left_open <= std::max(kOpen, kRoundings * flow_.table().unit_roundoff)))
     return fmt::format(
         "at t = {:g} s a step of {:g} s is too long: closing the loops leaves them open by {:.2g} m; take "
         "shorter steps",

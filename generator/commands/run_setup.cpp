@@ -111,14 +111,15 @@ void RunArguments::add_to(CLI::App& command) {
 }
 
 bool is_sound_at(const RunModel& model, const std::string& path, const std::string& cause) {
-  model::Mechanism mechanism = model.loaded.mechanism;
+  model::ReadOptions read = model.loaded.read;
+  const std::vector<model::Parameter>& parameters = model.loaded.mechanism.parameters;
   for (std::size_t i = 0; i < model.parameters.size(); ++i)
-    mechanism.parameters[i].value = model.parameters[i];
+    if (model.parameters[i] != parameters[i].value) read.parameters[parameters[i].name] = model.parameters[i];
   support::Diagnostics diagnostics(path, support::read_file(path));
-  model::check_mechanism(mechanism, diagnostics, support::Severity::kError);
-  if (!diagnostics.has_errors()) check_inertia(mechanism, diagnostics);
-  if (!diagnostics.has_errors()) check_start(mechanism, diagnostics);
-  if (!diagnostics.has_errors()) return true;
+  const std::optional<model::Mechanism> mechanism = model::read_mechanism(diagnostics, read);
+  if (mechanism && !diagnostics.has_errors()) check_inertia(*mechanism, diagnostics);
+  if (mechanism && !diagnostics.has_errors()) check_start(*mechanism, diagnostics);
+  if (mechanism && !diagnostics.has_errors()) return true;
   fmt::print(stderr, "{}error: {}\n", diagnostics.format(), cause);
   return false;
 }
@@ -147,6 +148,12 @@ std::optional<RunModel> read_run(const RunArguments& arguments, int& status) {
   }
   status = kSuccess;
   return model;
+}
+
+std::vector<std::string> files_read(const RunArguments& arguments, const RunModel& model) {
+  std::vector<std::string> paths = model.loaded.sources;
+  if (!arguments.inputs.empty()) paths.push_back(arguments.inputs);
+  return paths;
 }
 
 namespace {

@@ -33,6 +33,9 @@ struct RunModel {
 /// Reads the model and the settings. On a mistake of the user prints it and leaves the exit status in `status`.
 std::optional<RunModel> read_run(const RunArguments& arguments, int& status);
 
+/// The description, what it imports, and the file of the inputs.
+std::vector<std::string> files_read(const RunArguments& arguments, const RunModel& model);
+
 /// False after diagnostics, and `cause`, where the mechanism fails the checks of its description at the parameters'
 /// values.
 bool is_sound_at(const RunModel& model, const std::string& path, const std::string& cause);

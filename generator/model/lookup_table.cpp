@@ -130,7 +130,8 @@ std::size_t with_straight_ends(Composition& make, std::size_t held, const Lookup
   const std::vector<double> slope = slopes(table);
   const auto beyond = [&](Function side, double point, double by) {
     const std::size_t distance = make.difference(0, make.literal(point));
-    return make.product(make.literal(by), make.function(side, distance, make.literal(0)));
+    // At the point itself the slope is that of 0: `held` has its own there, as min and max take their first argument's.
+    return make.product(make.literal(by), make.function(side, make.literal(0), distance));
   };
   held = make.sum(held, beyond(Function::kMin, points.front(), slope.front()));
   return make.sum(held, beyond(Function::kMax, points.back(), slope.back()));

@@ -79,6 +79,8 @@ TEST_F(DrivenRuns, ParametersAreSet) {
       simulate(slider(), {"--constant-input", "6", "--set", "mass=3", "--duration", "1", "--step", "0.01"}),
       0, "constant inputs");
   EXPECT_NEAR(last(1), 1, 1e-12);
+  const std::string block = std::string(JOURDAIN_SOURCE_DIR) + "/models/block_on_slope.toml";
+  expect(simulate(block, {"--set", "friction=-1", "--duration", "1", "--step", "0.01"}), 2, "is negative\n");
   expect(simulate(slider(), {"--set", "mas=3"}), 2, "did you mean 'mass'?");
   expect(simulate(slider(), {"--set", "mass=heavy"}), 2, "a number must follow");
   expect(simulate(slider(), {"--set", "mass"}), 2, "a number must follow");
@@ -108,6 +110,7 @@ TEST_F(DrivenRuns, WrongTablesAreDiagnosed) {
   message("time,pusch\n0,0\n", "did you mean 'push'?");
   message("time,push\n0,0\n1,x\n", "u.csv:3:3: error: 'x' is not a finite number");
   message("time,push\n0,0\n0,1\n", "u.csv:3:1: error: time 0 does not come after 0");
+  message("time,push,push\n0,1,2\n", "u.csv:1:11: error: input 'push' has a column already");
   message("time,push\n0\n", "1 values for 2 columns");
   message("time,push\n", "no rows");
   message("", "no rows");

@@ -109,6 +109,46 @@ TEST(LoopCommands, AMechanismThatMotionsDetermineIsCheckedAndSimulated) {
   EXPECT_NEAR(end[3], start[3], 1e-12);
 }
 
+/// Alike for longer than is looked at when the model is read.
+TEST(LoopCommands, ConstraintsThatContradictEachOtherLaterEndARun) {
+  const support::TemporaryFolder folder;
+  const std::string path = folder.path() + "/twice.toml", csv = folder.path() + "/run.csv";
+  support::write_file(path, R"toml([model]
+name = "driven_twice"
+[[body]]
+name = "carriage"
+mass = 1
+[[body]]
+name = "bob"
+mass = 1
+center_of_mass = [0.5, 0, 0]
+[[joint]]
+name = "slide"
+type = "prismatic"
+parent = "world"
+child = "carriage"
+initial_position = 1
+[[joint]]
+name = "hinge"
+type = "revolute"
+parent = "carriage"
+child = "bob"
+axis = [0, 1, 0]
+[[loop]]
+type = "rod"
+from = "world"
+to = "carriage"
+length = "1 + 0.1*t"
+[[loop]]
+type = "residual"
+residual = "slide - 1 - 0.1*t + 1e-5*t^2"
+)toml");
+  expect(jourdain({"simulate", path, "--duration", "10", "--step", "0.01", "--output", csv}), 0,
+         "loops open by 0.001 m");
+  expect(jourdain({"simulate", path, "--duration", "30", "--step", "0.01", "--output", csv}), 1,
+         "error: at t = 14.15 s constraints contradict each other");
+}
+
 TEST(LoopCommands, LoopsAreClosedAgainAtOtherParameters) {
   const support::TemporaryFolder folder;
   const std::string path = tunable_slider_crank(folder.path(), "radius = 0.045", "partitioned"),

@@ -87,7 +87,7 @@ const std::vector<std::vector<double>> kValues = {{0.02, 0.05, 0.02},
                                                   {0.02, 0.021, 0.04, 0.06, 0.03, 0.025, 0.02}};
 
 /// The follower's mass and spring, and the shaft's inertia, seen from the shaft.
-TEST(CurvesOfPoints, MoveTheFollowerOfACam) {
+void expect_follower(const std::string& declared, const std::string& residual) {
   constexpr double kInertia = 0.02, kMass = 0.5, kStiffness = 300;
   for (std::size_t k = 0; k < kPoints.size(); ++k) {
     const Spline lift(kPoints[k], kValues[k], true);
@@ -114,15 +114,8 @@ parent = "world"
 child = "follower"
 axis = [0, 0, 1]
 stiffness = 300
-[[function]]
-name = "profile"
-arguments = ["angle"]
-value = "2*curve(angle)"
-[[loop]]
-name = "contact"
-type = "residual"
-residual = "2*slide - profile(shaft)"
-)toml"));
+)toml" + declared + "[[loop]]\nname = \"contact\"\ntype = \"residual\"\nresidual = \"" +
+                                             residual + "\"\n"));
     ASSERT_EQ(programs.plan().independent.size(), 1u);
     for (const double angle : {-9.3, -3.0, -1.7, 0.1, 0.7, 2.9, 3.1, 20.4}) {
       const auto [s, slope, curvature] = lift.at(angle);
@@ -136,6 +129,16 @@ residual = "2*slide - profile(shaft)"
       EXPECT_NEAR(programs.values("close_loops", 0, {angle, 0.3}, {speed}, {}).at("y[1]"), s, 1e-15);
     }
   }
+}
+
+TEST(CurvesOfPoints, MoveTheFollowerOfACam) {
+  expect_follower("", "curve(shaft) - slide");
+  expect_follower("[[function]]\nname = \"profile\"\narguments = [\"angle\"]\nvalue = \"2*curve(angle)\"\n",
+                  "2*slide - profile(shaft)");
+  expect_follower(
+      "[[signal]]\nname = \"lift\"\nvalue = \"3*curve(shaft)\"\n[[signal]]\nname = \"profile\"\nvalue = "
+      "\"lift/3\"\n",
+      "slide - profile");
 }
 
 /// A pendulum below a cart that moves as told: l θ'' = −g sin θ − x'' cos θ.
@@ -167,7 +170,7 @@ child = "bob"
 axis = [0, -1, 0]
 )toml");
       const double angle = 0.7, length = 0.8, along = length * 1.3;
-      for (const double t : {-4.0, -2.6, -0.3, 0.7, 1.2, 3.1, 5.6}) {
+      for (const double t : {-4.0, -2.6, -0.3, 0.7, 1.2, 3.1, 5.6, kPoints[k].front(), kPoints[k].back()}) {
         const auto [place, speed, acceleration] = motion.at(t);
         const EquationsAt e = equations_at(scene, {{angle}, {1.3}, {}, t});
         EXPECT_NEAR((e.k_bar[0] - e.q_bar[0]) / e.M[0][0],
@@ -187,7 +190,7 @@ TEST(CurvesOfPoints, GuideBodies) {
     const model::Mechanism scene =
         one_body("mass = 2", "type = \"curve\"\ncurve = [\"s\", \"0\", \"curve(s)\"]",
                  table(kPoints[k], kValues[k], "extend"));
-    for (const double s : {-4.0, -2.6, -0.3, 0.7, 1.2, 3.1, 5.6}) {
+    for (const double s : {-4.0, -2.6, -0.3, 0.7, 1.2, 3.1, 5.6, kPoints[k].front(), kPoints[k].back()}) {
       const auto [value, slope, curvature] = guide.at(s);
       const EquationsAt e = equations_at(scene, {{s}, {1.5}});
       EXPECT_NEAR(e.M[0][0], 2 * (1 + slope * slope), 1e-13);

@@ -10,6 +10,7 @@
 #include <span>
 
 #include "model/read/read.hpp"
+#include "model/taylor.hpp"
 #include "properties/random.hpp"
 #include "support/files.hpp"
 #include "support/temporary_folder.hpp"
@@ -182,6 +183,34 @@ TEST(LookupTable, HasItsValuesAtItsPointsAndHoldsOrExtendsThemBeyond) {
                                                            : slopes(kind, x, y).back();
       EXPECT_NEAR(at(extended, x[0] - 2), y[0] - 2 * before, 1e-11);
       EXPECT_NEAR(at(extended, x[n - 1] + 2), y[n - 1] + 2 * behind, 1e-11);
+    }
+}
+
+TEST(LookupTable, HasOneSlopeWhereItGoesOnStraight) {
+  Random random(8);
+  for (const auto kind : {Interpolation::kMonotone, Interpolation::kSpline})
+    for (const std::size_t n : {2, 3, 4, 5, 20}) {
+      const std::vector<double> x = rising(random, n, 2);
+      std::vector<double> y;
+      for (std::size_t k = 0; k < n; ++k) y.push_back(k * k + random.uniform(-0.2, 0.2));
+      const Function extended = curve(x, y, kind, Beyond::kExtend);
+      const std::vector<double> expected = slopes(kind, x, y);
+      const auto slope_at = [&](double place) {
+        return extended.value
+            .evaluate<Taylor<double>>(
+                {},
+                [](double v) {
+                  return Taylor<double>{v, 0, 0};
+                },
+                [&](const Variable&) {
+                  return Taylor<double>{place, 1, 0};
+                })
+            .first;
+      };
+      for (const double beyond : {0.0, 0.5}) {
+        EXPECT_NEAR(slope_at(x.front() - beyond), expected.front(), 1e-12) << n << " " << beyond;
+        EXPECT_NEAR(slope_at(x.back() + beyond), expected.back(), 1e-11) << n << " " << beyond;
+      }
     }
 }
 

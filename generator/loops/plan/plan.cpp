@@ -11,6 +11,7 @@
 #include "loops/plan/inertia.hpp"
 #include "loops/plan/partition.hpp"
 #include "loops/plan/preferred.hpp"
+#include "loops/plan/redundant_in_time.hpp"
 #include "loops/plan/scales.hpp"
 #include "loops/plan/sharing_rows.hpp"
 #include "loops/plan/start.hpp"
@@ -58,6 +59,7 @@ class Planner {
     plan_.rows = plan_.disagreeing.empty() ? kept_rows(closure_, configurations_, jacobians_)
                                            : all_but(plan_.disagreeing);
     for (const std::size_t r : all_but(plan_.rows)) plan_.redundant.push_back(names_[r]);
+    if (!check_later(mechanism_, closure_, start_, plan_.rows, plan_.disagreement, diagnostics_)) return {};
     plan_.freedom = layout_.velocity_count() - std::min(layout_.velocity_count(), plan_.rows.size());
     if (!check_moved_inertia(mechanism_, configurations_, jacobians_, diagnostics_)) return {};
     massless_ = massless_in_tree(mechanism_, start_);

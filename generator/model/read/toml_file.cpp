@@ -42,6 +42,10 @@ std::optional<toml::table> parse_toml(support::Diagnostics& diagnostics) {
 Expression TomlFile::with_smooth_callables(Callable::Smooth at_least,
                                            const std::function<Expression()>& read) {
   const std::vector<Callable> kept = callables_;
+  const std::vector<Signal> kept_signals = signals_;
+  for (Signal& signal : signals_)
+    signal.value =
+        at_least == Callable::Smooth::kEverywhere ? signal.smoothed_everywhere : signal.smoothed_within_ends;
   for (Callable& callable : callables_)
     if (callable.smooth >= at_least)
       callable.value = [](std::span<const Expression> arguments) {
@@ -51,6 +55,7 @@ Expression TomlFile::with_smooth_callables(Callable::Smooth at_least,
       };
   Expression result = read();
   callables_ = kept;
+  signals_ = kept_signals;
   return result;
 }
 

@@ -65,7 +65,13 @@ void read_signal(TomlFile& file, const toml::node& node, const Mechanism& mechan
   signal.unit = read_si_unit(table, "signal", signal.name);
   if (!table.has("value"))
     table.missing("value", "an expression of t, coordinates, inputs, frames and states");
-  signal.value = table.function("value", {{signal.unit}}, general_scope(file, mechanism));
+  const std::size_t mark = file.error_count();
+  const auto read = [&] { return table.function("value", {{signal.unit}}, general_scope(file, mechanism)); };
+  signal.value = read();
+  if (file.error_count() == mark) {
+    signal.smoothed_everywhere = file.with_smooth_callables(Callable::Smooth::kEverywhere, read);
+    signal.smoothed_within_ends = file.with_smooth_callables(Callable::Smooth::kWithinEnds, read);
+  }
   if (signal.name.empty() || !check_signal_name(file, table, "signal", signal.name, mechanism)) return;
   file.declare(std::move(signal));
 }

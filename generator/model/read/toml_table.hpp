@@ -52,6 +52,9 @@ struct Signal {
   Expression value;
   std::string unit;  ///< SI; empty: none
   SourceRange where = {};
+  /// The value where callables that are smooth everywhere, and all that are so within their ends, are sums of their
+  /// arguments.
+  Expression smoothed_everywhere = {}, smoothed_within_ends = {};
 };
 
 /// One TOML file while it is read.
@@ -71,7 +74,7 @@ class TomlFile {
   /// A table or function that expressions may call from now on.
   void declare(Callable callable) { callables_.push_back(std::move(callable)); }
   const std::vector<Callable>& callables() const { return callables_; }
-  /// What `read` makes where callables that are at least so smooth are sums of their arguments.
+  /// What `read` makes where callables that are at least so smooth are sums of their arguments, in signals too.
   Expression with_smooth_callables(Callable::Smooth at_least, const std::function<Expression()>& read);
   /// A signal that expressions may name from now on.
   void declare(Signal signal) { signals_.push_back(std::move(signal)); }
