@@ -10,6 +10,7 @@
 #include "commands/commands.hpp"
 #include "commands/emission.hpp"
 #include "commands/method_names.hpp"
+#include "commands/number_checks.hpp"
 #include "commands/progress.hpp"
 #include "commands/shared_library.hpp"
 
@@ -101,13 +102,11 @@ void add_bench(CLI::App& app, int& status) {
   command->add_option("--states", choices.states, "states that are drawn")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
-  command->add_option("--seed", choices.seed, "of the states")->capture_default_str();
+  command->add_option("--seed", choices.seed, "of the states")->check(seed_number())->capture_default_str();
   command->add_option("--blocks", choices.blocks, "blocks of calls of each function")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
-  command->add_option("--step", choices.step, "s, of steps")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+  command->add_option("--step", choices.step, "s, of steps")->check(positive_number())->capture_default_str();
   command->add_flag("--json", arguments->json, "the same as one JSON document");
   command->callback([arguments, &status] { status = run(*arguments); });
 }

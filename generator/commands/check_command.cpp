@@ -104,6 +104,10 @@ int run(const CheckArguments& given) {
     fmt::print(stderr, "error: {}\n", wrong);
     return kUsage;
   }
+  if (const std::string wrong = arguments->emission.tell_absent_functions(*loaded); !wrong.empty()) {
+    fmt::print(stderr, "error: {}\n", wrong);
+    return kUsage;
+  }
   loaded->options.words = arguments->words;
   const CompiledModel compiled = compile(loaded->mechanism, loaded->options);
   if (!compiled.verdict.accepted()) return refuse(*loaded, compiled.verdict);

@@ -6,7 +6,9 @@
 #include <CLI/Formatter.hpp>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <iterator>
 #include <sstream>
 #include <string_view>
@@ -81,15 +83,29 @@ int run(int argc, char** argv) {
   }
 }
 
+/// What was printed so far is out; otherwise false after a message. Asking once at the end is enough: a stream that
+/// failed says so.
+bool is_output_written() {
+  errno = 0;
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return true;
+  std::fprintf(stderr, "error: standard output cannot be written%s%s\n", errno == 0 ? "" : ": ",
+               errno == 0 ? "" : std::strerror(errno));
+  std::clearerr(stdout);
+  return false;
+}
+
 }  // namespace
 
 int run_command_line(int argc, char** argv) noexcept {
   try {
-    return run(argc, argv);
+    const int status = run(argc, argv);
+    return is_output_written() || status != kSuccess ? status : kEnvironment;
   } catch (const support::EnvironmentError& error) {
     std::fprintf(stderr, "error: %s\n", printable(error.what()).c_str());
     return kEnvironment;
   } catch (const std::exception& error) {
+    // Printing throws where a stream fails.
+    if (std::ferror(stderr) != 0 || !is_output_written()) return kEnvironment;
     std::fprintf(stderr, "internal error: %s\nPlease report this with the model that shows it.\n",
                  error.what());
     return kInternal;

@@ -9,6 +9,7 @@
 #include "commands/dependencies.hpp"
 #include "commands/emission.hpp"
 #include "commands/load.hpp"
+#include "commands/output_guard.hpp"
 #include "commands/report_text.hpp"
 
 namespace jourdain::commands {
@@ -41,6 +42,11 @@ int run(const CompileArguments& arguments, const CLI::App& command) {
     fmt::print(stderr, "error: {}\n", wrong);
     return kUsage;
   }
+  if (const std::string wrong = arguments.emission.tell_absent_functions(*loaded); !wrong.empty()) {
+    fmt::print(stderr, "error: {}\n", wrong);
+    return kUsage;
+  }
+  if (!are_outputs_apart({arguments.depfile}, loaded->sources)) return kUsage;
   loaded->options.words = emission_words(command);
   if (!arguments.dump.empty())
     loaded->options.watch = [&](const passes::PassRecord& pass, const ir::Module& module) {
@@ -49,6 +55,9 @@ int run(const CompileArguments& arguments, const CLI::App& command) {
     };
   const CompiledModel compiled = compile(loaded->mechanism, loaded->options);
   if (!compiled.verdict.accepted()) return refuse(*loaded, compiled.verdict);
+  std::vector<std::string> outputs = paths_in(arguments.folder, compiled.files);
+  outputs.push_back(arguments.depfile);
+  if (!are_outputs_apart(outputs, loaded->sources)) return kUsage;
   support::write_files(arguments.folder, compiled.files);
   std::vector<std::string> written;
   for (const emit::File& file : compiled.files)

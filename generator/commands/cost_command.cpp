@@ -10,6 +10,8 @@
 #include "commands/commands.hpp"
 #include "commands/cost_text.hpp"
 #include "commands/method_names.hpp"
+#include "commands/number_checks.hpp"
+#include "commands/output_guard.hpp"
 #include "commands/progress.hpp"
 #include "commands/run_setup.hpp"
 #include "commands/target_text.hpp"
@@ -108,6 +110,7 @@ int run(CostArguments arguments) {
   int status = kSuccess;
   const std::optional<RunModel> model = read_run(arguments.run, status);
   if (!model) return status;
+  if (!are_outputs_apart({arguments.output}, files_read(arguments.run, *model))) return kUsage;
   if (!arguments.output.empty())
     support::check_writable(std::filesystem::absolute(arguments.output).parent_path().string());
   const std::size_t velocities = model->loaded.velocity_count();
@@ -155,7 +158,7 @@ void add_cost(CLI::App& app, int& status) {
   command->add_option("--methods", arguments->methods, "steppers (default: all)")
       ->delimiter(',')
       ->check(check_method);
-  command->add_option("--step", arguments->steps.h, "s")->check(CLI::PositiveNumber)->capture_default_str();
+  command->add_option("--step", arguments->steps.h, "s")->check(positive_number())->capture_default_str();
   CLI::Option* warm =
       command->add_option("--warm", arguments->steps.warm, "single steps of each method, one after the other")
           ->check(CLI::Range(1L, 100000000L))

@@ -79,6 +79,23 @@ std::string EmissionArguments::apply(LoadedMechanism& loaded) const {
   return "";
 }
 
+std::string EmissionArguments::tell_absent_functions(const LoadedMechanism& loaded) const {
+  if (functions.empty()) return "";
+  const CompileOptions& options = loaded.options;
+  const programs::SceneFacts scene = programs::scene_facts(loaded.mechanism, loaded.plan(), options.wishes());
+  std::vector<std::string> absent;
+  for (const programs::FunctionInfo& function : programs::all_functions())
+    if (std::find(functions.begin(), functions.end(), function.name) != functions.end() &&
+        !programs::has_function(function, scene))
+      absent.push_back(function.name);
+  if (absent.empty()) return "";
+  const std::string what = fmt::format("'{}' has no {}", options.name, fmt::join(absent, ", "));
+  if (programs::with_needed(options.functions, scene).empty() && programs::kinematic_functions(scene).empty())
+    return fmt::format("--functions: {}, and nothing else is asked for", what);
+  fmt::print(stderr, "note: --functions: {}\n", what);
+  return "";
+}
+
 std::vector<std::string> emission_words(const CLI::App& command) {
   std::vector<std::string> words;
   for (const CLI::Option* option : command.get_options()) {

@@ -28,6 +28,10 @@ struct EmissionArguments {
   /// Sets the options of `loaded` and adds the functions that are asked for to its mechanism. Returns what is wrong
   /// with the arguments, or nothing.
   std::string apply(LoadedMechanism& loaded) const;
+
+  /// Tells, once applied, which of --functions the scene has not. Returns what is wrong where it has none of them and
+  /// nothing else is asked for, or nothing.
+  std::string tell_absent_functions(const LoadedMechanism& loaded) const;
 };
 
 /// The options of a parsed command that decide what the files hold, in the order of the help, each as one word that may

@@ -15,6 +15,8 @@
 #include "commands/ensemble_text.hpp"
 #include "commands/ensemble_verdict.hpp"
 #include "commands/memory_checks.hpp"
+#include "commands/number_checks.hpp"
+#include "commands/output_guard.hpp"
 #include "commands/progress.hpp"
 #include "commands/run_setup.hpp"
 #include "commands/spread_check.hpp"
@@ -90,6 +92,7 @@ int run(EnsembleArguments arguments) {
   int status = kSuccess;
   std::optional<RunModel> model = read_run(arguments.run, status);
   if (!model) return status;
+  if (!are_outputs_apart({arguments.output, arguments.plot}, model->loaded.sources)) return kUsage;
   if (model->loaded.velocity_count() == 0) {
     fmt::print(stderr, "error: '{}' has no degree of freedom: nothing is integrated\n",
                model->loaded.mechanism.name);
@@ -168,11 +171,13 @@ void add_ensemble(CLI::App& app, int& status) {
                    "the start of a position or velocity; 5% is a share of the value; may be repeated")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  command->add_option("--seed", arguments->choices.seed, "of what is drawn")->capture_default_str();
-  command->add_option("--duration", arguments->duration, "s")
-      ->check(CLI::PositiveNumber)
+  command->add_option("--seed", arguments->choices.seed, "of what is drawn")
+      ->check(seed_number())
       ->capture_default_str();
-  command->add_option("--step", arguments->step, "s")->check(CLI::PositiveNumber)->capture_default_str();
+  command->add_option("--duration", arguments->duration, "s")
+      ->check(positive_number())
+      ->capture_default_str();
+  command->add_option("--step", arguments->step, "s")->check(positive_number())->capture_default_str();
   command->add_option("--method", arguments->choices.method, "stepper")
       ->check(CLI::IsMember({"rk4", "rk5", "heun", "euler", "semi_implicit_euler"}))
       ->capture_default_str();
@@ -189,7 +194,7 @@ void add_ensemble(CLI::App& app, int& status) {
   command
       ->add_option("--accuracy", arguments->accuracy,
                    "what half the step may move ends by, in deviations, without an error")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->capture_default_str();
   command->callback([arguments, &status] { status = run(*arguments); });
 }

@@ -4,7 +4,6 @@
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
 
-#include <cmath>
 #include <memory>
 
 #include "commands/commands.hpp"
@@ -14,6 +13,8 @@
 #include "commands/fmu_files.hpp"
 #include "commands/load.hpp"
 #include "commands/method_names.hpp"
+#include "commands/number_checks.hpp"
+#include "commands/output_guard.hpp"
 #include "commands/shared_library.hpp"
 #include "support/files.hpp"
 #include "support/temporary_folder.hpp"
@@ -99,10 +100,6 @@ int run(const FmuArguments& arguments) {
   std::optional<LoadedMechanism> loaded = load(arguments.model);
   if (!loaded) return kModelWrong;
   const CompileOptions& options = loaded->options;
-  if (!std::isfinite(arguments.step)) {
-    fmt::print(stderr, "error: --step {} is no length of time\n", arguments.step);
-    return kUsage;
-  }
   if (has_samples(loaded->mechanism)) {
     fmt::print(stderr, "error: '{}' has memories; units with events, which samples are, are not written\n",
                options.name);
@@ -117,12 +114,13 @@ int run(const FmuArguments& arguments) {
     fmt::print(stderr, "error: {}\n", wrong);
     return kUsage;
   }
+  const std::string output = arguments.output.empty() ? options.name + ".fmu" : arguments.output;
+  if (!are_outputs_apart({output}, loaded->sources)) return kUsage;
   const CompiledModel compiled = compile(loaded->mechanism, options);
   if (!compiled.verdict.accepted()) return refuse(*loaded, compiled.verdict);
   const FmuScene scene = fmu_scene(loaded->mechanism, options, compiled, arguments.method, arguments.step);
   std::vector<FileText> files = text_files(scene, arguments.version(), compiled.files);
   if (!arguments.sources_only) files.insert(files.begin() + 1, library(scene, arguments, files));
-  const std::string output = arguments.output.empty() ? options.name + ".fmu" : arguments.output;
   support::write_file(output, zip_archive(files));
   fmt::print("{}: {}\n  wrote {}: FMI {}.0, {} continuous states, steps of {} s with {} in co-simulation\n",
              options.name, freedom_text(*loaded), output, arguments.fmi, state_references(scene).size(),
@@ -145,7 +143,7 @@ void add_fmu(CLI::App& app, int& status) {
       ->check(check_method)
       ->capture_default_str();
   command->add_option("--step", arguments->step, "its internal step, s")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->capture_default_str();
   command->add_option("--compiler", arguments->compiler,
                       "compiler of C, with options (default: the environment variable CC, else cc)");

@@ -94,7 +94,10 @@ class TableReader {
                      near.empty() ? fmt::format("the inputs are {}", fmt::join(names_, ", "))
                                   : fmt::format("did you mean '{}'?", near));
       }
-      columns_.push_back(static_cast<std::size_t>(found - names_.begin()));
+      const auto input = static_cast<std::size_t>(found - names_.begin());
+      if (std::find(columns_.begin() + 1, columns_.end(), input) != columns_.end())
+        return error(fields[i], fmt::format("input '{}' has a column already", *found));
+      columns_.push_back(input);
     }
   }
 

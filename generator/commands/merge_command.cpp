@@ -2,7 +2,6 @@
 #include <CLI/App.hpp>
 #include <CLI/Option.hpp>
 
-#include <filesystem>
 #include <memory>
 
 #include "commands/commands.hpp"
@@ -11,6 +10,7 @@
 #include "commands/ensemble_plot.hpp"
 #include "commands/ensemble_verdict.hpp"
 #include "commands/load.hpp"
+#include "commands/output_guard.hpp"
 #include "commands/printable.hpp"
 
 namespace jourdain::commands {
@@ -24,20 +24,14 @@ struct MergeArguments {
 
 void print_error(const std::string& text) { fmt::print(stderr, "error: {}\n", printable(text)); }
 
-/// False after a message where the file to write is none, or is one of those to read.
+/// False after a message where the file to write is none, or a file to write is one of those to read.
 bool is_output_sound(const MergeArguments& arguments) {
   if (!is_ensemble_file(arguments.output)) {
     print_error(fmt::format("{}: the file to write comes first and ends in .h5", arguments.output));
     return false;
   }
-  for (const std::string& shard : arguments.shards) {
-    std::error_code ignored;
-    if (!std::filesystem::equivalent(arguments.output, shard, ignored)) continue;
-    print_error(fmt::format("{}: is a shard, and would be overwritten; the file to write comes first",
-                            arguments.output));
-    return false;
-  }
-  return true;
+  return are_outputs_apart({arguments.output, arguments.plot}, arguments.shards,
+                           "is a shard, and would be overwritten; the file to write comes first");
 }
 
 /// Nothing after messages where one of them is not sound.

@@ -11,6 +11,7 @@
 #include "commands/emission.hpp"
 #include "commands/kinematic_choice.hpp"
 #include "commands/method_names.hpp"
+#include "commands/output_guard.hpp"
 #include "commands/python_module.hpp"
 #include "commands/python_names.hpp"
 #include "commands/report_text.hpp"
@@ -73,6 +74,8 @@ CompileOptions options_of_packs(const CompileOptions& options, const CompiledMod
   return result;
 }
 
+std::string library_name(const std::string& name) { return fmt::format("lib{}.so", name); }
+
 /// The library, NAME.py and NAME.pyi, compiled where nobody sees it. With `packs` batches are stepped by them.
 std::vector<FileText> module_files(const PythonArguments& arguments, const LoadedMechanism& loaded,
                                    const CompiledModel& compiled, const CompiledModel* packs) {
@@ -96,7 +99,7 @@ std::vector<FileText> module_files(const PythonArguments& arguments, const Loade
   const support::TemporaryFolder folder;
   sources.push_back({name + "_batch.c", batch_text(options, compiled, build)});
   support::write_files(folder.path(), sources);
-  const std::string library = fmt::format("lib{}.so", name);
+  const std::string library = library_name(name);
   const std::vector<std::string> in_c = {name + ".c", name + "_interface.c", name + "_batch.c"};
   if (packs)
     build_shared_library(
@@ -119,6 +122,11 @@ int run(const PythonArguments& arguments) {
     fmt::print(stderr, "error: {}\n", wrong);
     return kUsage;
   }
+  const std::string& name = loaded->options.name;
+  std::vector<std::string> outputs;
+  for (const std::string& file : {library_name(name), name + ".py", name + ".pyi"})
+    outputs.push_back(arguments.folder + "/" + file);
+  if (!are_outputs_apart(outputs, loaded->sources)) return kUsage;
   support::check_writable(arguments.folder);
   const CompiledModel compiled = compile(loaded->mechanism, loaded->options);
   if (!compiled.verdict.accepted()) return refuse(*loaded, compiled.verdict);

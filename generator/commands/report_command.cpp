@@ -11,6 +11,8 @@
 
 #include "commands/commands.hpp"
 #include "commands/method_names.hpp"
+#include "commands/number_checks.hpp"
+#include "commands/output_guard.hpp"
 #include "commands/progress.hpp"
 #include "commands/run_setup.hpp"
 #include "loops/plan/plan.hpp"
@@ -203,10 +205,10 @@ studies::Study make_study(const ReportArguments& arguments, const RunModel& mode
                             [&bar](const std::string& what, double done) { bar.show(what, done); });
 }
 
-/// Writes the files and prints what they say.
-void write_report(const ReportArguments& arguments, const std::string& folder,
-                  const studies::ReportHead& head, const studies::Flow<double>& flow,
-                  const studies::Study& study, const report::Figure& figure, ProgressBar& bar) {
+/// Writes the files and prints what they say; the exit status.
+int write_report(const ReportArguments& arguments, const std::string& folder, const RunModel& model,
+                 const studies::ReportHead& head, const studies::Flow<double>& flow,
+                 const studies::Study& study, const report::Figure& figure, ProgressBar& bar) {
   std::vector<support::FileText> files = studies::report_csv(head, flow.table(), study);
   files.push_back({"report.json", studies::report_json(head, flow.table(), study)});
   if (arguments.plots) {
@@ -214,12 +216,14 @@ void write_report(const ReportArguments& arguments, const std::string& folder,
     for (support::FileText& file : report::report_pages(head, flow, study, figure))
       files.push_back(std::move(file));
   }
-  support::write_files(folder, files);
   bar.clear();
+  if (!are_outputs_apart(paths_in(folder, files), files_read(arguments.run, model))) return kUsage;
+  support::write_files(folder, files);
   fmt::print("{}  wrote", studies::report_text(head, flow.table(), study));
   for (const support::FileText& file : files)
     fmt::print(" {}", (std::filesystem::path(folder) / file.name).generic_string());
   fmt::print("\n");
+  return kSuccess;
 }
 
 int run(ReportArguments arguments) {
@@ -286,8 +290,8 @@ int run(ReportArguments arguments) {
   if (!check_closed(*model, flow)) return kModelWrong;
   const studies::Study study = make_study(
       arguments, *model, *inputs, programs::displaced_tangent(compiled.facts), flow, long_table, free, bar);
-  write_report(arguments, folder, head_of(arguments, model->loaded, inputs->what), flow, study, figure, bar);
-  return kSuccess;
+  return write_report(arguments, folder, *model, head_of(arguments, model->loaded, inputs->what), flow, study,
+                      figure, bar);
 }
 
 /// "20us", "1ms", "0.5 s": a time in s.
@@ -334,7 +338,7 @@ void add_report(CLI::App& app, int& status) {
   auto* tolerance = command
                         ->add_option("--tolerance", arguments->tolerance,
                                      "recommend the cheapest within this position error, rad or m")
-                        ->check(CLI::PositiveNumber);
+                        ->check(positive_number());
   command
       ->add_option("--budget", arguments->budget,
                    "recommend the most accurate within this run time, as 20us, per period")
@@ -343,7 +347,7 @@ void add_report(CLI::App& app, int& status) {
   command
       ->add_option("--penetration", arguments->penetration,
                    "say what keeps contacts, tyres and stops within this depth, m or rad")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   command
       ->add_option("--period", arguments->study.question.period,
                    "simulated time that the budget is for, as 1ms")
@@ -355,7 +359,7 @@ void add_report(CLI::App& app, int& status) {
   command
       ->add_option("--effort", arguments->study.seconds,
                    "s of work for each costly part, on a nominal machine: work is counted, not timed")
-      ->check(CLI::Range(0.1, 1e5))
+      ->check(number_between(0.1, 1e5))
       ->capture_default_str();
   command->add_flag("--hold-inputs", arguments->study.hold_inputs,
                     "steps get inputs as numbers, those of their begin; default: a function of time, sampled "

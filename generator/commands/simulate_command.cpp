@@ -12,6 +12,8 @@
 #include "commands/loop_guard.hpp"
 #include "commands/memory_checks.hpp"
 #include "commands/method_names.hpp"
+#include "commands/number_checks.hpp"
+#include "commands/output_guard.hpp"
 #include "commands/printable.hpp"
 #include "commands/progress.hpp"
 #include "commands/run_bounds.hpp"
@@ -219,6 +221,8 @@ int run(const SimulateArguments& arguments) {
   }
   const std::optional<PlotRequest> plot = plot_request(arguments.plot, options.name);
   if (!plot) return kUsage;
+  const std::string output = arguments.output.empty() ? options.name + ".csv" : arguments.output;
+  if (!are_outputs_apart({output, plot->file}, files_read(arguments.run, *model))) return kUsage;
   options.functions = loadable_functions({arguments.method});
   const CompiledModel compiled = compile(model->loaded.mechanism, options);
   if (!compiled.verdict.accepted()) return refuse(model->loaded, compiled.verdict);
@@ -256,7 +260,6 @@ int run(const SimulateArguments& arguments) {
     fmt::print("{}", csv);
     return kSuccess;
   }
-  const std::string output = arguments.output.empty() ? options.name + ".csv" : arguments.output;
   support::write_file(output, csv);
   print_summary(*model, *inputs, arguments, loaded.table(), result, steps);
   fmt::print("  wrote {}{}\n", output, picture.empty() ? "" : ", " + plot->file);
@@ -271,9 +274,9 @@ void add_simulate(CLI::App& app, int& status) {
       app.add_subcommand("simulate", "compile, step, write CSV: jourdain simulate arm.toml --duration 5");
   arguments->run.add_to(*command);
   command->add_option("--duration", arguments->duration, "s")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->capture_default_str();
-  command->add_option("--step", arguments->step, "s")->check(CLI::PositiveNumber)->capture_default_str();
+  command->add_option("--step", arguments->step, "s")->check(positive_number())->capture_default_str();
   command->add_option("--method", arguments->method, "stepper")->check(check_method)->capture_default_str();
   command->add_option("--every", arguments->every, "write every so many steps")
       ->check(CLI::Range(1L, 1000000000L))

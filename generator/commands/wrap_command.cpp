@@ -10,6 +10,7 @@
 #include "commands/commands.hpp"
 #include "commands/emission.hpp"
 #include "commands/method_names.hpp"
+#include "commands/output_guard.hpp"
 #include "commands/report_text.hpp"
 #include "commands/wrapper.hpp"
 #include "support/files.hpp"
@@ -31,8 +32,11 @@ int refuse_arguments(const std::string& why) {
   return kUsage;
 }
 
-int run(const WrapArguments& arguments) {
+int run(const WrapArguments& arguments, bool has_method) {
   const Wrapper& wrapper = *find_wrapper(arguments.tool);
+  if (has_method && !wrapper.steps)
+    return refuse_arguments(
+        fmt::format("--method is of tools that step, and {} is given rates", wrapper.tool));
   std::optional<LoadedMechanism> loaded = load(arguments.model);
   if (!loaded) return kModelWrong;
   const programs::SceneFacts facts = programs::scene_facts(loaded->mechanism, loaded->plan());
@@ -52,6 +56,7 @@ int run(const WrapArguments& arguments) {
   files.push_back(
       {fmt::format("{}_{}.c", loaded->options.name, wrapper.suffix),
        wrapper.text(loaded->options, compiled, loaded->mechanism.name, arguments.method + "_step")});
+  if (!are_outputs_apart(paths_in(arguments.folder, files), loaded->sources)) return kUsage;
   support::write_files(arguments.folder, files);
   fmt::print("{}: {}\n", loaded->options.name, freedom_text(*loaded));
   for (const support::FileText& file : files) fmt::print("  wrote {}/{}\n", arguments.folder, file.name);
@@ -70,11 +75,11 @@ void add_wrap(CLI::App& app, int& status) {
       ->required()
       ->check(CLI::IsMember(wrapped_tools()));
   command->add_option("-o,--output", arguments->folder, "folder to write into")->required();
-  command->add_option("--method", arguments->method, "simulink: stepper")
-      ->check(check_method)
-      ->capture_default_str();
+  const CLI::Option* method = command->add_option("--method", arguments->method, "simulink: stepper")
+                                  ->check(check_method)
+                                  ->capture_default_str();
   command->add_flag("--libm", arguments->libm, kLibmHelp);
-  command->callback([arguments, &status] { status = run(*arguments); });
+  command->callback([arguments, method, &status] { status = run(*arguments, method->count() > 0); });
 }
 
 }  // namespace jourdain::commands

@@ -171,6 +171,25 @@ double total_mass(const Mechanism& mechanism) {
   return mass;
 }
 
+/// In C, constants `y_NAME`, `z_NAME` and `u_NAME` are the entries of coordinates, states and inputs.
+std::string entry_with_constant(const Mechanism& mechanism, const std::string& constant) {
+  if (constant.size() < 3 || constant[1] != '_') return "";
+  const std::string name = constant.substr(2);
+  const auto has = [&name](const auto& list) {
+    return std::any_of(list.begin(), list.end(), [&](const auto& element) { return element.name == name; });
+  };
+  const bool is_coordinate =
+      std::any_of(mechanism.joints.begin(), mechanism.joints.end(), [&](const Joint& joint) {
+        return std::any_of(joint.coordinates.begin(), joint.coordinates.end(),
+                           [&](const Coordinate& c) { return !c.motion && c.name == name; });
+      });
+  const char letter = constant[0];
+  if ((letter == 'y' || letter == 'z') && is_coordinate) return name;
+  if (letter == 'z' && has(mechanism.states)) return name;
+  if (letter == 'u' && (has(mechanism.actuators) || has(mechanism.inputs))) return name;
+  return "";
+}
+
 }  // namespace
 
 std::string add_kinematic_function(Mechanism& mechanism, const std::string& prefix,
@@ -183,6 +202,11 @@ std::string add_kinematic_function(Mechanism& mechanism, const std::string& pref
   }
   if (function.name.find("__") != std::string::npos || function.name.starts_with('_'))
     return fmt::format("'{}' would be a name that is reserved in C++", function.name);
+  if (function.name.starts_with("detail_"))
+    return fmt::format("'{}' would begin as emitted functions do that are not for users", function.name);
+  if (const std::string entry = entry_with_constant(mechanism, function.name); !entry.empty())
+    return fmt::format("'{}' is in C the constant of '{}', its entry in {}", function.name, entry,
+                       function.name[0]);
   const auto is_about_center = [](KinematicQuantity quantity) {
     return !quantity_row(quantity).of_frame && quantity != KinematicQuantity::kGravityCompensation;
   };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 
 #include "model/c_names.hpp"
 
@@ -9,26 +10,57 @@ namespace jourdain::model {
 
 namespace {
 
-constexpr std::array<std::string_view, 97> kKeywords{
-    "alignas",     "alignof",   "and",        "and_eq",    "asm",      "auto",         "bitand",
-    "bitor",       "bool",      "break",      "case",      "catch",    "char",         "char8_t",
-    "char16_t",    "char32_t",  "class",      "compl",     "concept",  "const",        "consteval",
-    "constexpr",   "constinit", "const_cast", "continue",  "co_await", "co_return",    "co_yield",
-    "decltype",    "default",   "delete",     "do",        "double",   "dynamic_cast", "else",
-    "enum",        "explicit",  "export",     "extern",    "false",    "float",        "for",
-    "friend",      "goto",      "if",         "inline",    "int",      "long",         "mutable",
-    "namespace",   "new",       "noexcept",   "not",       "not_eq",   "nullptr",      "operator",
-    "or",          "or_eq",     "private",    "protected", "public",   "register",     "reinterpret_cast",
-    "requires",    "return",    "short",      "signed",    "sizeof",   "static",       "static_assert",
-    "static_cast", "struct",    "switch",     "template",  "this",     "thread_local", "throw",
-    "true",        "try",       "typedef",    "typeid",    "typename", "union",        "unsigned",
-    "using",       "virtual",   "void",       "volatile",  "wchar_t",  "while",        "xor",
-    "xor_eq",      "final",     "override",   "import",    "module",   "restrict"};
+constexpr std::array<std::string_view, 99> kKeywords{
+    "alignas",      "alignof",   "and",        "and_eq",    "asm",      "auto",         "bitand",
+    "bitor",        "bool",      "break",      "case",      "catch",    "char",         "char8_t",
+    "char16_t",     "char32_t",  "class",      "compl",     "concept",  "const",        "consteval",
+    "constexpr",    "constinit", "const_cast", "continue",  "co_await", "co_return",    "co_yield",
+    "decltype",     "default",   "delete",     "do",        "double",   "dynamic_cast", "else",
+    "enum",         "explicit",  "export",     "extern",    "false",    "float",        "for",
+    "friend",       "goto",      "if",         "inline",    "int",      "long",         "mutable",
+    "namespace",    "new",       "noexcept",   "not",       "not_eq",   "nullptr",      "operator",
+    "or",           "or_eq",     "private",    "protected", "public",   "register",     "reinterpret_cast",
+    "requires",     "return",    "short",      "signed",    "sizeof",   "static",       "static_assert",
+    "static_cast",  "struct",    "switch",     "template",  "this",     "thread_local", "throw",
+    "true",         "try",       "typedef",    "typeid",    "typename", "union",        "unsigned",
+    "using",        "virtual",   "void",       "volatile",  "wchar_t",  "while",        "xor",
+    "xor_eq",       "final",     "override",   "import",    "module",   "restrict",     "typeof",
+    "typeof_unqual"};
 
 /// What emitted code and the check that reads it call their own.
 constexpr std::array<std::string_view, 15> kEmitted{
     "Real",          "Scalar",      "Time",   "Model",    "State", "Input", "Parameters", "Outputs",
     "Linearization", "RateHistory", "detail", "jourdain", "NAME",  "std",   "main"};
+
+/// Beginnings of names that emitted files give to what is not the model's: a model `get` would bring `get_parameters`,
+/// for one, a second time. And functions that kernels call in a number type's namespace, which a namespace would hide.
+constexpr auto kOfEmittedFiles = std::to_array<std::string_view>(
+    {// beginnings, in C
+     "before", "bias", "by", "call", "call_constraint", "compute", "drift", "get", "has", "is", "no", "old",
+     "output_by", "position_by", "read", "saved", "set", "set_step", "step", "step_linearly_implicit",
+     "step_semi_implicit", "stop", "write",
+     // of number types
+     "from_literal", "sine_cosine", "table_entry", "where"});
+
+/// In small letters. Headers of the C library that NAME.h would be found before, and files that are written or compiled
+/// beside the model's; the guards of the tool's own headers too.
+constexpr auto kFiles = std::to_array<std::string_view>(
+    {"alloca", "assert", "complex", "ctype", "endian", "errno", "features", "fenv", "float", "inttypes",
+     "iso646", "limits", "locale", "malloc", "math", "memory", "pthread", "sched", "semaphore", "setjmp",
+     "signal", "stdalign", "stdarg", "stdatomic", "stdbool", "stdckdint", "stddef", "stdint", "stdio",
+     "stdlib", "stdnoreturn", "string", "strings", "syscall", "syslimits", "tgmath", "threads", "time",
+     "uchar", "unistd", "values", "wchar", "wctype",
+     // the tool's
+     "bench", "board", "cost", "draws", "ensemble", "ensemble_interface", "functions", "jourdain",
+     "jourdain_ensemble", "jourdain_fmi2", "jourdain_fmi3", "jourdain_interface", "long_real", "model_table",
+     "pack", "shim", "steppers"});
+
+std::string in_small_letters(std::string_view name) {
+  std::string small(name);
+  for (char& c : small)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return small;
+}
 
 template <std::size_t n>
 bool contains(const std::array<std::string_view, n>& list, std::string_view name) {
@@ -49,6 +81,10 @@ bool is_reserved(std::string_view name) {
   return contains(kKeywords, name) || contains(kEmitted, name) || is_macro(name);
 }
 
+bool is_taken_by_files(std::string_view name) {
+  return contains(kOfEmittedFiles, name) || contains(kFiles, in_small_letters(name));
+}
+
 std::string cpp_name(std::string_view name) {
   std::string out;
   for (const char c : name) {
@@ -59,7 +95,7 @@ std::string cpp_name(std::string_view name) {
   if (out.empty() || out == "_") return "model";
   if (out[0] == '_') return "model" + out;
   if (is_digit(out[0])) return "model_" + out;
-  return is_reserved(out) || is_global_name(out) ? out + "_model" : out;
+  return is_reserved(out) || is_global_name(out) || is_taken_by_files(out) ? out + "_model" : out;
 }
 
 }  // namespace jourdain::model

@@ -34,7 +34,7 @@ Interruption& interruption() {
 sigset_t ending_signals() {
   sigset_t signals;
   sigemptyset(&signals);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals, signal);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) sigaddset(&signals, signal);
   return signals;
 }
 
@@ -75,6 +75,7 @@ void remove_folder(const std::string& folder) {
 void handle_interruptions() {
   const sigset_t signals = ending_signals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  std::signal(SIGXFSZ, SIG_IGN);
   std::thread(wait_for_signal).detach();
 }
 

@@ -7,8 +7,9 @@
 
 namespace jourdain::support {
 
-/// From now on SIGINT, SIGTERM and SIGHUP end the program with a message and exit status 3 after the folders and
-/// processes below were removed. Call it once, before any thread starts.
+/// From now on SIGINT, SIGTERM, SIGHUP and SIGQUIT end the program with a message and exit status 3 after the folders
+/// and processes below were removed, and a file that grows beyond the limit of its size is an error of writing it
+/// instead of a signal, here and in the processes that are started. Call it once, before any thread starts.
 void handle_interruptions();
 
 /// A folder, or a file, that is removed when the program is interrupted, while this lives.

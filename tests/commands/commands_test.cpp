@@ -48,12 +48,37 @@ TEST(CommandLine, ExitStatusSaysWhoIsWrong) {
          "did you mean 'mass_matrix'");
   expect(jourdain({"compile", "models/panda.toml", "-o", folder.path(), "--name", "namespace"}), 2,
          "reserved");
+  expect(jourdain({"compile", "models/panda.toml", "-o", folder.path(), "--name", "get"}), 2,
+         "try 'get_model'");
   expect(jourdain({"compile", "models/panda.toml", "-o", folder.path(), "--name", "a b"}), 2, "identifier");
   expect(jourdain({"frobnicate"}), 2, "frobnicate");
   expect(jourdain({}), 2, "subcommand");
   expect(jourdain({"--version"}), 0, "jourdain 0.1.0");
   expect(jourdain({"compile", "--help"}), 0, "--functions");
   EXPECT_EQ(files_in(folder.path()), 0u);
+}
+
+TEST(CommandLine, StepsThatRememberNothingAreEmitted) {
+  const support::TemporaryFolder folder;
+  support::write_file(folder.path() + "/moved.toml", R"toml([model]
+name = "moved"
+[[body]]
+name = "b"
+mass = 2
+[[joint]]
+name = "j"
+type = "prismatic"
+parent = "world"
+child = "b"
+motion = "0.1*sin(20*t)"
+)toml");
+  for (const char* language : {"c++", "c"})
+    expect(jourdain({"compile", folder.path() + "/moved.toml", "-o", folder.path(), "--language", language,
+                     "--functions", "adams_bashforth2_step,adams_bashforth3_step"}),
+           0, "read back");
+  const support::ProcessResult compiled = support::run_process(
+      {"g++", "-std=c++17", "-fsyntax-only", "-Wall", "-Wextra", "-Werror", folder.path() + "/moved.cpp"});
+  EXPECT_EQ(compiled.status, 0) << compiled.output;
 }
 
 TEST(CommandLine, OptionsOfSeveralValuesLeaveTheModelAlone) {

@@ -44,7 +44,7 @@ TEST_F(Against, TheCommittedFilesOfAModel) {
 
 TEST_F(Against, TakesTheOptionsThatTheFolderWasMadeWith) {
   make({"--functions", "initial_state,rk4_step,center_of_mass", "--frame", "tip=bob:pose,jacobian:frame",
-        "--frame", "hand=bob", "--no-damping", "--snap", "1e-3", "--name", "swing"});
+        "--frame", "hand=bob", "--libm", "--snap", "1e-3", "--name", "swing"});
   const support::ProcessResult result = check();
   EXPECT_EQ(result.status, 0) << result.output;
   EXPECT_THAT(result.output, HasSubstr("4 files, the same byte for byte"));

@@ -1,5 +1,6 @@
 #include "model/names.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace jourdain::model {
@@ -11,9 +12,20 @@ TEST(IsIdentifier, FollowsCpp) {
 }
 
 TEST(IsReserved, CoversKeywordsMacrosAndEmittedNames) {
-  for (const char* word : {"double", "xor", "co_await", "NAN", "M_PI", "errno", "Real", "detail"})
+  for (const char* word : {"double", "xor", "co_await", "typeof", "NAN", "M_PI", "errno", "Real", "detail"})
     EXPECT_TRUE(is_reserved(word)) << word;
   for (const char* word : {"m", "l", "gamma", "real", "arm"}) EXPECT_FALSE(is_reserved(word)) << word;
+}
+
+TEST(CppName, LeavesToFilesAndHeadersWhatTheyAreCalled) {
+  for (const char* name : {"get", "step", "call", "compute", "where", "from_literal", "table_entry", "math",
+                           "string", "stdint", "features", "Math", "jourdain_interface", "jourdain_ensemble",
+                           "Jourdain", "JOURDAIN_FMI2", "ensemble", "pack", "shim"}) {
+    EXPECT_TRUE(is_taken_by_files(name)) << name;
+    EXPECT_EQ(cpp_name(name), fmt::format("{}_model", name));
+    EXPECT_EQ(cpp_name(cpp_name(name)), cpp_name(name)) << name;
+  }
+  for (const char* name : {"arm", "stepper", "Get", "maths", "model"}) EXPECT_EQ(cpp_name(name), name);
 }
 
 TEST(CppName, MakesANamespaceOfAnyText) {

@@ -68,7 +68,7 @@ TEST(ManifestSchema, AcceptsTheManifestsOfAllModelsOptionsAndImports) {
                                                         (kSource / "models/pendulum.toml").string() + "\"\n");
   const support::ProcessResult made = support::run_process(
       {JOURDAIN_BINARY, "compile", folder.path() + "/cell.toml", "-o", folder.path(), "--functions",
-       "initial_state,rodas4_step", "--frame", "tip=bob:pose", "--no-damping"});
+       "initial_state,rodas4_step", "--frame", "tip=bob:pose", "--no-snap"});
   ASSERT_EQ(made.status, 0) << made.output;
   const std::string cell = folder.path() + "/cell.json";
   const std::string text = support::read_file(cell);
@@ -76,7 +76,7 @@ TEST(ManifestSchema, AcceptsTheManifestsOfAllModelsOptionsAndImports) {
   EXPECT_THAT(
       text,
       HasSubstr(
-          R"("options": ["--no-damping", "--functions=initial_state,rodas4_step", "--frame=tip=bob:pose"])"));
+          R"("options": ["--no-snap", "--functions=initial_state,rodas4_step", "--frame=tip=bob:pose"])"));
   std::vector<std::string> manifests = files_of(kSource / "generated", ".json");
   ASSERT_GE(manifests.size(), 28u);
   manifests.push_back(cell);

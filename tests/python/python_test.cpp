@@ -151,10 +151,11 @@ TEST(Python, TextsOfADescriptionAreNoStatements) {
 name = "odd \"\"\"\nimport sys; sys.exit(3) # \\"
 [parameters]
 lambda = { value = 2, unit = "kg", description = "a \"quoted\" \\ mass" }
+self = 1
 [[body]]
 name = "b"
 mass = "lambda"
-center_of_mass = [1, 0, 0]
+center_of_mass = ["self", 0, 0]
 inertia = [1, 1, 1]
 [[joint]]
 name = "j"
@@ -170,14 +171,15 @@ joint = "j"
 )toml");
   const ProcessResult made = make(folder.path() + "/odd.toml", folder.path(), {"--name", "odd"});
   ASSERT_EQ(made.status, 0) << made.output;
-  const ProcessResult result = run_python(
-      {"-c",
-       "import ast, odd\nast.parse(open(odd.__file__ + 'i').read())\nmodel = odd.Model(**{'lambda': 4})\n"
-       "state = model.initial_state()\nmodel.rk4_step(state, None, 0.5)\n"
-       "print(state.y.size, state.t, model.outputs(state)['needed'], model.parameters)"},
-      folder.path());
+  const ProcessResult result =
+      run_python({"-c",
+                  "import ast, odd\nast.parse(open(odd.__file__ + 'i').read())\nmodel = "
+                  "odd.Model(**{'lambda': 4, 'self': 1.5})\n"
+                  "state = model.initial_state()\nmodel.rk4_step(state, None, 0.5)\n"
+                  "print(state.y.size, state.t, model.outputs(state)['needed'], model.parameters)"},
+                 folder.path());
   EXPECT_THAT(result.output, HasSubstr("0 0.5 -")) << result.output;
-  EXPECT_THAT(result.output, HasSubstr("Parameters(lambda=4.0)"));
+  EXPECT_THAT(result.output, HasSubstr("Parameters(lambda=4.0, self=1.5)"));
 }
 
 TEST(Python, TheSameFilesAreMadeEveryTime) {

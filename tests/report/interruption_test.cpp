@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 /// signal `delay` after `is_reached`, and expects it to leave nothing.
 void expect_nothing_left_by_a_killed_report(const std::string& temporary, const std::string& setting,
                                             const std::function<bool()>& is_reached,
-                                            std::chrono::milliseconds delay) {
+                                            std::chrono::milliseconds delay, int signal = SIGTERM) {
   const support::TemporaryFolder folder;
   const std::string out = folder.path() + "/out", place = "TMPDIR=" + temporary,
                     path = JOURDAIN_SOURCE_DIR "/models/lagrange_top.toml";
@@ -34,7 +34,7 @@ void expect_nothing_left_by_a_killed_report(const std::string& temporary, const 
   ASSERT_EQ(posix_spawnp(&child, "env", nullptr, nullptr, const_cast<char**>(arguments), environ), 0);
   for (int i = 0; i < 3000 && !is_reached(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   std::this_thread::sleep_for(delay);
-  kill(child, SIGTERM);
+  kill(child, signal);
   int status = 0;
   waitpid(child, &status, 0);
   EXPECT_TRUE(WIFEXITED(status));
@@ -60,9 +60,13 @@ TEST(Interruption, TakesAwayWhatACompilerForgets) {
   support::write_file(compiler,
                       "#!/bin/sh\ntouch \"$TMPDIR/forgotten\" \"" + reached + "\"\nexec sleep 100\n");
   fs::permissions(compiler, fs::perms::owner_all);
-  expect_nothing_left_by_a_killed_report(
-      temporary.path(), "CXX=" + compiler, [&] { return fs::exists(reached); }, std::chrono::milliseconds(0));
-  EXPECT_TRUE(fs::exists(reached));
+  for (const int signal : {SIGTERM, SIGQUIT}) {
+    SCOPED_TRACE(signal);
+    expect_nothing_left_by_a_killed_report(
+        temporary.path(), "CXX=" + compiler, [&] { return fs::exists(reached); },
+        std::chrono::milliseconds(0), signal);
+    EXPECT_TRUE(fs::remove(reached));
+  }
 }
 
 }  // namespace

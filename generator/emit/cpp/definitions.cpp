@@ -132,10 +132,8 @@ std::string support_text(const Support& support, bool samples_inputs) {
 }
 
 std::string public_struct(const Struct& of) {
-  const bool has_depth = std::any_of(of.members.begin(), of.members.end(), [](const Members& members) {
-    const std::vector<Expression>& extents = members.variables.front().extents;
-    return !extents.empty() && mentions(extents.front(), "depth");
-  });
+  const bool has_depth =
+      of.name == "RateHistory";  // functions name it with its depth, though it keeps no rate
   std::string text = wrapped_doc(of.comment, 0);
   text += fmt::format("template <{}class Real = double>\nstruct {} {{\n", has_depth ? "int depth, " : "",
                       of.name);
