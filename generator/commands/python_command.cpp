@@ -90,7 +90,7 @@ std::vector<FileText> module_files(const PythonArguments& arguments, const Loade
     for (const emit::File& file : packs->files)
       if (file.name != name + ".json") sources.push_back({file.name, file.text});
     for (const char* header :
-         {"pack.hpp", "steppers.hpp", "ensemble.hpp", "ensemble_interface.hpp", "jourdain_ensemble.h"})
+         {"pack.hpp", "stepping.hpp", "ensemble.hpp", "ensemble_interface.hpp", "jourdain_ensemble.h"})
       sources.push_back({header, std::string(emit::template_text(header))});
     sources.push_back({name + "_packs.cpp", packs_text(name)});
   }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <functional>
+#include <memory>
 #include <optional>
 #include <set>
 
@@ -10,6 +12,7 @@
 #include "dynamics/applied_forces.hpp"
 #include "dynamics/energy.hpp"
 #include "dynamics/free_root.hpp"
+#include "dynamics/initial_state.hpp"
 #include "dynamics/joint_equations.hpp"
 #include "dynamics/kinematic_functions.hpp"
 #include "dynamics/link_forces.hpp"
@@ -18,7 +21,6 @@
 #include "dynamics/scene.hpp"
 #include "dynamics/solver.hpp"
 #include "dynamics/wrenches.hpp"
-#include "model/joint_kinds.hpp"
 #include "model/motion_sources.hpp"
 #include "support/check.hpp"
 
@@ -59,7 +61,7 @@ class Derivation {
     }
     equations_.potential_energy = derive_potential_energy(scene_);
     derive_samples();
-    set_initial_state();
+    derive_initial_state(scene_, equations_);
     for (const model::Output& output : mechanism_.outputs) equations_.output_names.push_back(output.name);
     derive_closures(rates);
     equations_.outputs_take_leaves = options_.for_derivatives || !mechanism_.loops.empty();
@@ -342,30 +344,6 @@ class Derivation {
     return tau;
   }
 
-  void set_initial_state() {
-    std::vector<Ex>&y = equations_.initial_position, &z = equations_.initial_velocity;
-    const auto push = [&](std::vector<Ex>& list, const model::Expression& value) {
-      list.push_back(scene_.value(&list == &y ? "y_initial" : "z_initial", value));
-    };
-    for (model::JointIndex index : model::moving_joints(mechanism_)) {
-      const model::Joint& joint = mechanism_.joints[index.value];
-      for (const model::Coordinate& coordinate : joint.coordinates) {
-        if (coordinate.motion) continue;
-        push(y, coordinate.initial_position);
-        push(z, coordinate.initial_velocity);
-      }
-      if (model::joint_kind(joint).has_origin())
-        for (std::size_t k = 0; k < 3; ++k) {
-          push(y, joint.initial_origin[k]);
-          push(z, joint.initial_origin_velocity[k]);
-        }
-      if (!model::joint_kind(joint).has_quaternion()) continue;
-      for (const model::Expression& component : joint.initial_orientation) push(y, component);
-      for (const model::Expression& component : joint.initial_spin) push(z, component);
-    }
-    for (const model::StateVariable& state : mechanism_.states) push(z, state.initial);
-  }
-
   const model::Mechanism& mechanism_;
   DerivationOptions options_;
   Equations equations_;
@@ -384,18 +362,23 @@ Equations derive_equations(const model::Mechanism& mechanism, const DerivationOp
 }
 
 struct AccelerationWays::Derived {
-  Derivation derivation;
+  std::function<const Equations&(const DerivationOptions&)> by;
 };
 
 AccelerationWays::AccelerationWays(const model::Mechanism& mechanism,
-                                   const kinematics::LinkTreeOptions& options)
-    : derived_(new Derived{Derivation(mechanism, {.link_tree = options})}) {}
+                                   const kinematics::LinkTreeOptions& links)
+    : derived_(new Derived) {
+  DerivationOptions options;
+  options.link_tree = links;
+  derived_->by = [derivation = std::make_shared<Derivation>(mechanism, options)](
+                     const DerivationOptions& way) -> const Equations& {
+    return derivation->derive_accelerations(way);
+  };
+}
 
 AccelerationWays::~AccelerationWays() = default;
 
-const Equations& AccelerationWays::by(const DerivationOptions& options) {
-  return derived_->derivation.derive_accelerations(options);
-}
+const Equations& AccelerationWays::by(const DerivationOptions& way) { return derived_->by(way); }
 
 std::vector<Ex> sampled_values(const Equations& equations) {
   std::vector<Ex> values;

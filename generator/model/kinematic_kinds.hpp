@@ -61,8 +61,8 @@ std::variant<std::vector<KinematicQuantity>, KinematicError> parse_quantities(st
                                                                               bool of_frame);
 
 /// Adds the function of these quantities to the mechanism, named `prefix`_quantity_quantity…, or after the quantities
-/// where the prefix is empty. Returns what is wrong: its name is reserved, a macro's or taken, in C by an entry's constant
-/// or by what is internal, or there is no mass to have a centre.
+/// where the prefix is empty. Returns what is wrong: its name is reserved, a macro's or taken, in C by an entry's
+/// constant or by what is internal, or there is no mass to have a centre.
 std::string add_kinematic_function(Mechanism& mechanism, const std::string& prefix,
                                    std::optional<FrameIndex> frame, Axes axes,
                                    const std::vector<KinematicQuantity>& quantities, SourceRange where = {});

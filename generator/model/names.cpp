@@ -53,7 +53,7 @@ constexpr auto kFiles = std::to_array<std::string_view>(
      // the tool's
      "bench", "board", "cost", "draws", "ensemble", "ensemble_interface", "functions", "jourdain",
      "jourdain_ensemble", "jourdain_fmi2", "jourdain_fmi3", "jourdain_interface", "long_real", "model_table",
-     "pack", "shim", "steppers"});
+     "pack", "shim", "stepping"});
 
 std::string in_small_letters(std::string_view name) {
   std::string small(name);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Memory and launches of the device that a source is compiled for: by nvcc or clang's CUDA mode NVIDIA's, by hipcc AMD's.
-// Any other compiler takes the host for it, which does one piece of the work after the other.
+// Memory and launches of the device that a source is compiled for: by nvcc or clang's CUDA mode NVIDIA's, by hipcc
+// AMD's. Any other compiler takes the host for it, which does one piece of the work after the other.
 #pragma once
 
 #include <string.h>

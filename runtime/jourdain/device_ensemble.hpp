@@ -12,7 +12,7 @@
 #pragma once
 
 #include "device.hpp"
-#include "steppers.hpp"
+#include "stepping.hpp"
 
 namespace jourdain {
 
@@ -149,10 +149,10 @@ class DeviceEnsemble {
     model_.write()[0].functions = functions;
   }
 
-  /// `steps` steps of length h (s) of all states. Before each one before(k, step, state, input) is called on the device,
-  /// and may set state k's input. A stepper is called with model, state, input and h, and where it takes that, k, for
-  /// what methods remember from step to step. Both are copied to the device: they hold numbers, and pointers to what
-  /// lies there (OnDevice).
+  /// `steps` steps of length h (s) of all states. Before each one before(k, step, state, input) is called on the
+  /// device, and may set state k's input. A stepper is called with model, state, input and h, and where it takes that,
+  /// k, for what methods remember from step to step. Both are copied to the device: they hold numbers, and pointers to
+  /// what lies there (OnDevice).
   template <class Stepper, class Before = NothingBefore>
   void run(const Stepper& stepper, Real h, std::size_t steps, const Before& before = Before()) {
     const Real* own = has_own_ ? parameters_.read_on_device() : nullptr;

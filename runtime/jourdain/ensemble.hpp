@@ -23,7 +23,7 @@
 #include <vector>
 
 #include "pack.hpp"
-#include "steppers.hpp"
+#include "stepping.hpp"
 
 namespace jourdain {
 

@@ -1,5 +1,5 @@
-// No model's or parameter's name clashes with what the C library's headers declare, nor a model's with these headers and
-// with what emitted files call their own.
+// No model's or parameter's name clashes with what the C library's headers declare, nor a model's with these headers
+// and with what emitted files call their own.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

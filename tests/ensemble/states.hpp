@@ -8,7 +8,7 @@
 #include <type_traits>
 
 #include "jourdain/draws.hpp"
-#include "jourdain/steppers.hpp"
+#include "jourdain/stepping.hpp"
 
 namespace jourdain::tests {
 

@@ -1,4 +1,4 @@
-// What cuda_runtime.h declares, on this machine: the device's memory is the host's, its threads come one after the other.
+// What cuda_runtime.h declares, on this machine: the device's memory is the host's, its threads come one by one.
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
