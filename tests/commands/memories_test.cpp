@@ -35,7 +35,9 @@ TEST_F(MemoriesOnTheCommandLine, StepsDivideThePeriod) {
       run("simulate", {"--output", csv_, "--step", "1e-3", "--duration", "0.1", "--set", "sampling=2.5e-3"}),
       2, "2.5 steps of 0.001 s");
   expect(run("simulate", {"--output", csv_, "--step", "1e-3", "--duration", "0.1", "--set", "sampling=-1"}),
-         2, "the period of last_reading_timer is -1 s at these parameters");
+         2, "'period' of memory 'last_reading' is negative");
+  expect(run("simulate", {"--output", csv_, "--step", "1e-3", "--duration", "0.1", "--set", "sampling=0"}), 2,
+         "the period of last_reading_timer is 0 s at these parameters");
   expect(
       run("simulate", {"--output", csv_, "--step", "1e-3", "--duration", "0.1", "--set", "sampling=0.003"}),
       0, "at t = 0.1 s");
