@@ -100,11 +100,9 @@ int run(const CheckArguments& given) {
   if (!arguments) return kUsage;
   std::optional<LoadedMechanism> loaded = load(arguments->model, External::kCalled);
   if (!loaded) return kModelWrong;
-  if (const std::string wrong = arguments->emission.apply(*loaded); !wrong.empty()) {
-    fmt::print(stderr, "error: {}\n", wrong);
-    return kUsage;
-  }
-  if (const std::string wrong = arguments->emission.tell_absent_functions(*loaded); !wrong.empty()) {
+  std::string wrong = arguments->emission.apply(*loaded);
+  if (wrong.empty()) wrong = arguments->emission.tell_absent_functions(*loaded);
+  if (!wrong.empty()) {
     fmt::print(stderr, "error: {}\n", wrong);
     return kUsage;
   }

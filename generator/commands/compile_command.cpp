@@ -38,11 +38,9 @@ std::string check_pass(const std::string& pass) {
 int run(const CompileArguments& arguments, const CLI::App& command) {
   std::optional<LoadedMechanism> loaded = load(arguments.model, External::kCalled);
   if (!loaded) return kModelWrong;
-  if (const std::string wrong = arguments.emission.apply(*loaded); !wrong.empty()) {
-    fmt::print(stderr, "error: {}\n", wrong);
-    return kUsage;
-  }
-  if (const std::string wrong = arguments.emission.tell_absent_functions(*loaded); !wrong.empty()) {
+  std::string wrong = arguments.emission.apply(*loaded);
+  if (wrong.empty()) wrong = arguments.emission.tell_absent_functions(*loaded);
+  if (!wrong.empty()) {
     fmt::print(stderr, "error: {}\n", wrong);
     return kUsage;
   }

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <iterator>
 #include <map>
 #include <set>
 #include <string>
@@ -23,16 +22,14 @@
 #include "loops/plan/plan.hpp"
 #include "loops/plan/plan_text.hpp"
 #include "model/names.hpp"
+#include "model/read/format.hpp"
 #include "model/read/members.hpp"
-#include "model/read/xml_text.hpp"
 #include "support/files.hpp"
 #include "validate/snapping.hpp"
 
 namespace jourdain::commands {
 
 namespace {
-
-constexpr const char* kRobotEndings[] = {".urdf", ".sdf", ".world", ".mjcf", ".xml"};
 
 /// Emitted files name no folder: they are the same from wherever the command was called.
 std::string printed_path(const std::string& path) { return std::filesystem::path(path).filename().string(); }
@@ -92,23 +89,15 @@ void check_called(const model::Mechanism& mechanism, support::Diagnostics& diagn
                         "a 'prefix' of their imports tells them apart");
 }
 
-bool is_robot_file(const support::SourceFile& file) {
-  return std::any_of(std::begin(kRobotEndings), std::end(kRobotEndings),
-                     [&file](const char* ending) { return file.path.ends_with(ending); });
-}
-
-bool is_mjcf(const support::SourceFile& file) {
-  return is_robot_file(file) && (file.path.ends_with(".mjcf") || model::first_element(file.text) == "mujoco");
-}
-
 /// Options that change how robot files are read, where neither the description nor what it imports is one that they
 /// change.
 void refuse_robot_options(const model::ReadOptions& read, support::Diagnostics& diagnostics) {
-  const auto& files = diagnostics.files();
-  const bool robots = std::any_of(files.begin(), files.end(), is_robot_file);
-  const bool mimics = std::any_of(files.begin(), files.end(), [](const support::SourceFile& file) {
-    return is_robot_file(file) && !is_mjcf(file);
-  });
+  bool robots = false, mimics = false;
+  for (const support::SourceFile& file : diagnostics.files()) {
+    const model::Format format = model::format_of(file.path, file.text);
+    robots = robots || format != model::Format::kToml;
+    mimics = mimics || format == model::Format::kUrdf || format == model::Format::kSdf;
+  }
   if (!read.damping && !robots)
     diagnostics.error({}, "joint damping can be left out of URDF, SDF and MJCF files only",
                       "change the joints' 'damping' in the file");

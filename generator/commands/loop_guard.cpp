@@ -6,14 +6,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "loops/rows/disagreement.hpp"
+
 namespace jourdain::commands {
 
 namespace {
 
 /// m; the next closing makes good what is less. What rounding leaves is below, in float, too.
 constexpr double kOpen = 1e-9, kRoundings = 32;
-/// m, rad: by how much rows that follow from the others may be left open, and so many times what the plan knows.
-constexpr double kAskew = 2e-3, kNearly = 10;
 
 }  // namespace
 
@@ -26,7 +26,7 @@ std::string LoopGuard::problem(const studies::Point<double>& point) const {
   if (closing.beyond > 0) return out_of_range(point);
   if (!loaded_.plan()->redundant.empty()) {
     const double open = flow_.residuals(point).position;
-    if (open > std::max(kAskew, kNearly * loaded_.plan()->disagreement))
+    if (open > loops::most_left_open(loaded_.plan()->disagreement))
       return fmt::format(
           "at t = {:g} s constraints contradict each other: those that follow from the others are open by "
           "{:.2g} m",

@@ -111,7 +111,8 @@ std::vector<Struct> memory_structs(const programs::SceneFacts& scene,
         {"RateHistory",
          "What a multistep method remembers: rates of y and z at the last `count` of `depth` steps, newest "
          "first. One trajectory and one step length have one; a fresh one starts anew.",
-         {count}});
+         {count},
+         true});
     if (nz > 0)
       for (const auto& [rates, entries] : {std::pair("ydot", ny), {"zdot", nz}})
         structs.back().members.push_back({{{rates, {name("depth"), entries}, 0.0}}});

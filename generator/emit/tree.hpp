@@ -198,6 +198,7 @@ struct Members {
 struct Struct {
   std::string name, comment;
   std::vector<Members> members;
+  bool has_depth = false;  ///< a template of `depth`, which functions name, whether members have it or not
 };
 
 /// Integers that are known when the model is emitted.

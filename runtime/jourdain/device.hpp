@@ -105,9 +105,10 @@ class OnDevice {
 
   /// To read on the host.
   const std::vector<T>& read() const {
-    if (newest_ == Newest::kDevice)
+    if (newest_ == Newest::kDevice) {
       detail::copy_to_host(host_.data(), device_.get(), host_.size() * sizeof(T));
-    if (newest_ == Newest::kDevice) newest_ = Newest::kBoth;
+      newest_ = Newest::kBoth;
+    }
     return host_;
   }
   /// To read and write on the host.
@@ -118,9 +119,10 @@ class OnDevice {
   }
   /// To read on the device, by what `run` of an ensemble calls.
   const T* read_on_device() const {
-    if (newest_ == Newest::kHost)
+    if (newest_ == Newest::kHost) {
       detail::copy_to_device(device_.get(), host_.data(), host_.size() * sizeof(T));
-    if (newest_ == Newest::kHost) newest_ = Newest::kBoth;
+      newest_ = Newest::kBoth;
+    }
     return device_.get();
   }
   /// To read and write there.

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <type_traits>
 
 #include "jourdain/draws.hpp"
@@ -95,6 +96,17 @@ void expect_untrusted(std::size_t k, const Spoil& spoil) {
   EXPECT_EQ(ensemble.untrusted_count(), 1u);
   ensemble.set_state(k, intact.state(k));
   EXPECT_EQ(ensemble.untrusted_count(), 0u);
+}
+
+/// The first state, one between and the last, of a model of three coordinates or more.
+template <class Many>
+void expect_no_numbers_untrusted() {
+  using State = typename Many::State;
+  for (const std::size_t k : {std::size_t(0), std::size_t(5), kCount - 1}) {
+    expect_untrusted<Many>(k, [](State& state) { state.y[2] = std::numeric_limits<double>::quiet_NaN(); });
+    expect_untrusted<Many>(k, [](State& state) { state.z[1] = std::numeric_limits<double>::infinity(); });
+    expect_untrusted<Many>(k, [](State& state) { state.z[1] = 1e200; });
+  }
 }
 
 }  // namespace jourdain::tests

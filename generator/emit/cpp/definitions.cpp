@@ -132,10 +132,8 @@ std::string support_text(const Support& support, bool samples_inputs) {
 }
 
 std::string public_struct(const Struct& of) {
-  const bool has_depth =
-      of.name == "RateHistory";  // functions name it with its depth, though it keeps no rate
   std::string text = wrapped_doc(of.comment, 0);
-  text += fmt::format("template <{}class Real = double>\nstruct {} {{\n", has_depth ? "int depth, " : "",
+  text += fmt::format("template <{}class Real = double>\nstruct {} {{\n", of.has_depth ? "int depth, " : "",
                       of.name);
   for (const Members& members : of.members)
     for (const Variable& variable : members.variables)

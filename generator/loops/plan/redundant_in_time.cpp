@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "loops/record/loop_plan.hpp"
+#include "loops/rows/disagreement.hpp"
 #include "loops/rows/regular_rows.hpp"
 #include "model/loop_kinds.hpp"
 #include "model/time_dependence.hpp"
@@ -52,11 +53,11 @@ class Later {
 bool check_later(const model::Mechanism& mechanism, NumericClosure closure, const Configuration& start,
                  const std::vector<std::size_t>& kept, double left_open, support::Diagnostics& diagnostics) {
   constexpr int kSteps = 100;
-  constexpr long double kAskew = 2e-3L, kRounded = 1e-6L;
+  constexpr double kRounded = 1e-6;
   const std::vector<std::size_t> others = all_but(kept, closure.row_count());
   if (others.empty() || !model::time_dependence(mechanism).positions) return true;
   closure.disregard(others, std::numeric_limits<long double>::max());
-  const long double allowed = std::max<long double>(kAskew, 10 * left_open);
+  const long double allowed = most_left_open(left_open);
   Later later(closure, start);
   long double worst = 0, when = 0;
   std::size_t row = others.front();
@@ -69,7 +70,7 @@ bool check_later(const model::Mechanism& mechanism, NumericClosure closure, cons
         row = r;
       }
   }
-  if (worst <= std::max<long double>(kRounded, 10 * left_open)) return true;
+  if (worst <= std::max(kRounded, 10 * left_open)) return true;
   const model::Loop& loop = model::loop_of_row(mechanism, row);
   if (worst <= allowed) {
     diagnostics.warning(

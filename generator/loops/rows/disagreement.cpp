@@ -17,8 +17,6 @@ namespace {
 
 /// Rows that agree to this with others are closed with them; in m and products of unit vectors.
 constexpr long double kAgrees = kClosed / 4;
-/// Overconstrained mechanisms whose parts fit to this move, as those that are built do.
-constexpr long double kAskew = 2e-3L;
 /// Elsewhere they may fit that many times worse, within limits; m, rad.
 constexpr long double kNearly = 1000, kLeastLimit = 1e-9L, kMostLimit = 0.03L;
 /// A row that differs that much from combinations of others is another one however its numbers are rounded.

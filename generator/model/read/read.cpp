@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "model/read/finish.hpp"
-#include "model/read/xml_text.hpp"
+#include "model/read/format.hpp"
 #include "support/line_index.hpp"
 #include "support/utf8.hpp"
 
@@ -50,13 +50,17 @@ bool is_readable(Diagnostics& diagnostics) {
 
 std::optional<Part> read_part(Diagnostics& diagnostics, const ReadOptions& options) {
   if (!is_readable(diagnostics)) return {};
-  const std::string& path = diagnostics.path();
-  const auto ends_with = [&path](const char* end) { return path.ends_with(end); };
-  const bool xml = ends_with(".urdf") || ends_with(".xml");
-  const std::string root = xml ? first_element(diagnostics.text()) : "";
-  if (ends_with(".sdf") || ends_with(".world") || root == "sdf") return read_sdf(diagnostics, options);
-  if (ends_with(".mjcf") || root == "mujoco") return read_mjcf(diagnostics, options);
-  return xml ? read_urdf(diagnostics, options) : read_toml(diagnostics, options);
+  switch (format_of(diagnostics.path(), diagnostics.text())) {
+    case Format::kSdf:
+      return read_sdf(diagnostics, options);
+    case Format::kMjcf:
+      return read_mjcf(diagnostics, options);
+    case Format::kUrdf:
+      return read_urdf(diagnostics, options);
+    case Format::kToml:
+      break;
+  }
+  return read_toml(diagnostics, options);
 }
 
 std::optional<Mechanism> read_mechanism(Diagnostics& diagnostics, const ReadOptions& options) {
