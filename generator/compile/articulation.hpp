@@ -39,7 +39,8 @@ Articulation choose_articulation(const model::Mechanism& mechanism,
                                  const dynamics::DerivationOptions& options);
 
 /// dz/dt of a tree, before any pass.
-ir::Program lower_accelerations(const model::Mechanism& mechanism, const dynamics::DerivationOptions& options);
+ir::Program lower_accelerations(const model::Mechanism& mechanism,
+                                const dynamics::DerivationOptions& options);
 
 /// What was spent or given up, as a sentence; empty where nothing was.
 std::string accuracy_sentence(const Articulation& articulation);
