@@ -65,7 +65,10 @@ Point<Real> Flow<Real>::start() const {
     point.x = from_parts<Real>(parts);
   }
   Memory memory = fresh_memory(table_.methods[0]);
-  step(table_.methods[0], point, 0, 1, memory);
+  Point<Real> stepped = point;
+  step(table_.methods[0], stepped, 0, 1, memory);
+  // Velocities, states and memories are not a step's: that samples those of period 0.
+  std::copy_n(stepped.x.begin(), position_count(), point.x.begin());
   return closed(std::move(point));
 }
 

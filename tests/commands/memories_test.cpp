@@ -1,10 +1,12 @@
 // Memories on the command line: where they are stepped, and where they are refused.
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "commands/run_jourdain.hpp"
+#include "support/csv.hpp"
 #include "support/files.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -37,7 +39,7 @@ TEST_F(MemoriesOnTheCommandLine, StepsDivideThePeriod) {
   expect(run("simulate", {"--output", csv_, "--step", "1e-3", "--duration", "0.1", "--set", "sampling=-1"}),
          2, "'period' of memory 'last_reading' is negative");
   expect(run("simulate", {"--output", csv_, "--step", "1e-3", "--duration", "0.1", "--set", "sampling=0"}), 2,
-         "the period of last_reading_timer is 0 s at these parameters");
+         "state 'integral' has no finite value at the initial state");  // whose gain is divided by it
   expect(
       run("simulate", {"--output", csv_, "--step", "1e-3", "--duration", "0.1", "--set", "sampling=0.003"}),
       0, "at t = 0.1 s");
@@ -113,6 +115,88 @@ rate = "third + held"
          ":15:8: error: state 'held' has no finite value at the initial state");
   expect(check(held + "\"third\"\n" + third + "\"1/(slide + held)\"\n"), 1,
          ":19:8: error: state 'third' has no finite value at the initial state");
+}
+
+TEST_F(MemoriesOnTheCommandLine, PeriodsAreNotSetToZero) {
+  const std::string file = folder_.path() + "/counter.toml";
+  support::write_file(file, R"toml([model]
+name = "counter"
+[parameters]
+sampling = { value = 0.01, unit = "s" }
+[[body]]
+name = "bob"
+mass = 1
+[[joint]]
+name = "slide"
+type = "prismatic"
+parent = "world"
+child = "bob"
+[[memory]]
+name = "count"
+update = "count + 1"
+period = "sampling"
+[[force]]
+joint = "slide"
+value = "count"
+)toml");
+  const std::vector<std::string> command = {"simulate", file, "--output", csv_, "--duration", "0.1", "--set"};
+  const auto set = [&](const char* sampling) {
+    std::vector<std::string> words = command;
+    words.emplace_back(sampling);
+    return jourdain(words);
+  };
+  expect(set("sampling=0"), 2, "the period of count_timer is 0 s at these parameters");
+  expect(set("sampling=0.02"), 0, "at t = 0.1 s");
+}
+
+/// The first sample is part of the first step, however long the period is.
+TEST_F(MemoriesOnTheCommandLine, BeginWithWhatTheDescriptionSays) {
+  const std::string file = folder_.path() + "/counters.toml";
+  support::write_file(file, R"toml([model]
+name = "counters"
+[[body]]
+name = "bob"
+mass = 1
+[[joint]]
+name = "slide"
+type = "prismatic"
+parent = "world"
+child = "bob"
+axis = [1, 0, 0]
+initial_velocity = 1
+[[memory]]
+name = "each_step"
+update = "each_step + 1"
+period = 0
+initial = 7
+[[memory]]
+name = "each_second"
+update = "each_second + 1"
+period = 1
+initial = 7
+[[memory]]
+name = "late"
+update = "100 + 10*slide"
+delay = 2
+period = 0
+initial = 7
+[[force]]
+joint = "slide"
+value = "0*(each_step + each_second + late)"
+[[output]]
+name = "counts"
+kind = "expression"
+value = "1e6*each_step + 1e3*each_second + late"
+)toml");
+  const support::ProcessResult result = jourdain({"simulate", file, "--step", "1", "--duration", "4",
+                                                  "--every", "1", "--output", "-", "--outputs", "counts"});
+  ASSERT_EQ(result.status, 0) << result.output;
+  std::vector<double> counts;
+  for (const support::CsvRow& row : support::csv_rows(result.output)) {
+    const std::optional<double> count = support::number_in(row.fields.back());
+    if (count) counts.push_back(*count);
+  }
+  EXPECT_EQ(counts, (std::vector<double>{7007007, 8008007, 9009007, 10010100, 11011110}));
 }
 
 TEST_F(MemoriesOnTheCommandLine, TheHeaderSaysWhatIsSampled) {
