@@ -108,6 +108,27 @@ TEST(MjcfActuators, SayWhatIsNotRead) {
             std::string::npos);
 }
 
+TEST(MjcfActuators, OfDisabledGroupsAreLeftOut) {
+  const std::string text = R"(<default><motor group="3"/></default><option actuatorgroupdisable="1 3"/>
+    <actuator><position joint="j" kp="20" group="1"/><motor joint="j"/><motor joint="j" group="2"/></actuator>)";
+  const Read result = read(hinge("", text));
+  EXPECT_NE(result.messages.find("note: <position> is of disabled group 1: left out"), std::string::npos);
+  EXPECT_NE(result.messages.find("note: <motor> is of disabled group 3: left out"), std::string::npos);
+  EXPECT_EQ(result.mechanism.actuators.size(), 1u);
+  EXPECT_TRUE(result.mechanism.coordinate_forces.empty());
+}
+
+TEST(MjcfActuators, SayThatWhatTheyAddToJointsIsIgnored) {
+  for (const std::string name : {"damping", "armature", "delay"}) {
+    const auto messages = [&](const std::string& value) {
+      const std::string motor = "<motor joint=\"j\" " + name + "=\"" + value + "\"/>";
+      return read(hinge("", "<actuator>" + motor + "</actuator>")).messages;
+    };
+    EXPECT_NE(messages("0.5").find("warning: " + name + " of <motor> is ignored"), std::string::npos);
+    EXPECT_EQ(messages("0"), "");
+  }
+}
+
 /// Hinges "p" and "q" about z, 1 m apart along x, and sites; sections behind.
 std::string two(const std::string& sections, const std::string& of_q = "") {
   return "<mujoco><worldbody><body name=\"a\"><joint name=\"p\" ref=\"90\"/>" + kInertial +
@@ -173,6 +194,16 @@ TEST(MjcfEqualities, AreLeftOutWhereAFlagSaysSo) {
     <equality><connect body1="a" body2="b" anchor="0 2 0"/></equality>)"));
   EXPECT_TRUE(off.mechanism.loops.empty());
   EXPECT_NE(off.messages.find("equality constraints are disabled"), std::string::npos);
+}
+
+TEST(MjcfEqualities, HaveDefaultsOfTheirOwn) {
+  const std::string equality = R"(<equality><joint joint1="p" joint2="q"/></equality>)";
+  const Read off = read(two(R"(<default><equality active="false"/></default>)" + equality));
+  EXPECT_TRUE(off.mechanism.loops.empty());
+  EXPECT_NE(off.messages.find("note: <joint> is not active: left out"), std::string::npos) << off.messages;
+  // Defaults of bodies' joints are not theirs.
+  const Read on = read(two(R"(<default><joint damping="1"/></default>)" + equality));
+  EXPECT_EQ(on.mechanism.loops.size(), 1u) << on.messages;
 }
 
 TEST(MjcfEqualities, SayWhatIsLeftOut) {

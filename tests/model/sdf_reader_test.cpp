@@ -322,5 +322,31 @@ TEST(ReadSdf, RightAnglesOfPosesAreExact) {
   EXPECT_EQ(read(text, {.snap = 0}).diagnostics, "");
 }
 
+TEST(ReadSdf, AttributesAreReadOrTold) {
+  const auto said = [](const std::string& inside, const std::string& part) {
+    const std::string diagnostics = read(model(link("a", inside) + kShoulder)).diagnostics;
+    EXPECT_NE(diagnostics.find(part), std::string::npos) << diagnostics;
+  };
+  said("<pose relativ_to=\"a\">0 0 0 0 0 0</pose>", "warning: attribute 'relativ_to' of <pose> is ignored");
+  said("<pose degrees=\"yes\">0 0 0 90 0 0</pose>", "error: 'degrees' is true or false, not 'yes'");
+  said("<pose rotation_format=\"quat_wxyz\">0 0 0 0 0 0</pose>",
+       "error: 'rotation_format' is euler_rpy or quat_xyzw, not 'quat_wxyz'");
+  const std::string axis = "<axis><xyz expresed_in=\"__model__\">0 1 0</xyz></axis>";
+  const std::string diagnostics =
+      read(model(link("a") + joint("j", "revolute", "world", "a", axis))).diagnostics;
+  EXPECT_NE(diagnostics.find("attribute 'expresed_in' of <xyz> is ignored"), std::string::npos)
+      << diagnostics;
+}
+
+TEST(ReadSdf, CommentsDoNotEndTexts) {
+  const Read of = read(
+      model(link("a") + joint("j", "revolute", "world", "a",
+                              "<axis><xyz>0 <!-- not 1 --> 0 1</xyz><dynamics><damping><!-- c -->1<!-- c -->5"
+                              "</damping></dynamics></axis>")));
+  EXPECT_EQ(of.diagnostics, "");
+  EXPECT_EQ(of.joint("j").coordinates[0].damping.constant(), 15);
+  EXPECT_EQ(of.joint("j").axis[2], 1);
+}
+
 }  // namespace
 }  // namespace jourdain::model

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
 #include <set>
 
@@ -12,7 +13,7 @@ namespace {
 using support::shown;
 using Op = Expression::Op;
 
-constexpr std::size_t kParameters = 10;
+constexpr std::size_t kParameters = 10, kMostGroups = 31;
 
 /// Force of an actuator: gain[0] ctrl + bias[0] + bias[1] length + bias[2] speed, before the gear.
 struct Law {
@@ -28,6 +29,9 @@ class ActuatorReader {
 
   void read() {
     const XmlElement& root = file_.root();
+    for (const auto* e = root.FirstChildElement("option"); e; e = e->NextSiblingElement("option"))
+      if (e->Attribute("actuatorgroupdisable"))
+        disabled_ = file_.numbers(*e, "actuatorgroupdisable", std::vector<double>(kMostGroups, -1), 1);
     for (const auto* section = root.FirstChildElement("actuator"); section;
          section = section->NextSiblingElement("actuator"))
       for (const auto* e = section->FirstChildElement(); e; e = e->NextSiblingElement())
@@ -54,6 +58,10 @@ class ActuatorReader {
     const char* const given = e.Attribute("name");
     const std::string label =
         given ? fmt::format("<{}> '{}'", e.Name(), shown(given)) : fmt::format("<{}>", e.Name());
+    const double group = file_.number(e, "group", 0);
+    if (std::find(disabled_.begin(), disabled_.end(), group) != disabled_.end())
+      return xml().diagnostics().note(xml().element(e),
+                                      fmt::format("{} is of disabled group {}: left out", label, group));
     if (!e.Attribute(attribute))
       return file_.warning(xml().element(e), label + " acts on no joint: not read",
                            "actuators of tendons, sites and bodies have no counterpart");
@@ -73,6 +81,9 @@ class ActuatorReader {
       return file_.warning(actuator.where, label + " has no effect: its gear or gain is zero");
     if (file_.holder(e, "forcerange") && file_.word(e, "forcelimited").value_or("auto") != "false")
       force_limits_.add(xml().value(*file_.holder(e, "forcerange"), "forcerange"), actuator.name);
+    warn_of(e, label, "damping", "joints have 'damping' of their own");
+    warn_of(e, label, "armature", "joints have 'armature' of their own");
+    warn_of(e, label, "delay", "the actuator acts at once");
     add_bias(actuator, gear, law);
     bodies_.mechanism.actuators.push_back(std::move(actuator));
   }
@@ -145,11 +156,16 @@ class ActuatorReader {
   }
 
   void warn_of_servo(const XmlElement& e, const std::string& label) {
-    for (const char* attribute : {"dampratio", "timeconst"})
-      if (file_.number(e, attribute, 0) != 0)
-        file_.warning(xml().value(*file_.holder(e, attribute), attribute),
-                      fmt::format("{} of {} is ignored", attribute, label),
-                      std::string_view(attribute) == "dampratio" ? "kv damps" : "the servo acts at once");
+    warn_of(e, label, "dampratio", "kv damps");
+    warn_of(e, label, "timeconst", "the servo acts at once");
+  }
+
+  /// That a number of an actuator that is not zero is ignored, and what happens instead.
+  void warn_of(const XmlElement& e, const std::string& label, const char* attribute,
+               const std::string& instead) {
+    if (file_.number(e, attribute, 0) != 0)
+      file_.warning(xml().value(*file_.holder(e, attribute), attribute),
+                    fmt::format("{} of {} is ignored", attribute, label), instead);
   }
 
   /// gear (b₀ + b₁ gear q + b₂ gear q̇) on the joint.
@@ -204,6 +220,7 @@ class ActuatorReader {
 
   MjcfFile& file_;
   MjcfBodies& bodies_;
+  std::vector<double> disabled_;  ///< groups
   std::set<std::string> names_;
   std::size_t count_ = 0;
   Repeated force_limits_;

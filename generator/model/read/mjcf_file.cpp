@@ -136,8 +136,9 @@ std::string MjcfFile::class_of(const XmlElement& element) const {
 
 std::vector<const XmlElement*> MjcfFile::levels(const XmlElement& element) const {
   std::vector<const XmlElement*> found{&element};
-  const bool actuator = std::strcmp(element.Parent()->Value(), kActuator) == 0;
-  const std::string tag = actuator ? kActuator : element.Name();
+  // Of one name in defaults, whatever they are.
+  const std::string section = element.Parent()->Value();
+  const std::string tag = section == kActuator || section == "equality" ? section : element.Name();
   for (auto place = classes_.find(class_of(element)); place != classes_.end();
        place = place->second.outer.empty() ? classes_.end() : classes_.find(place->second.outer)) {
     const auto of_tag = place->second.elements.find(tag);

@@ -11,20 +11,30 @@ namespace jourdain::model {
 
 using support::shown;
 
+namespace {
+
+/// All of it: comments may stand between its parts.
+std::string text_of(const XmlElement& item) {
+  std::string text;
+  for (const auto* node = item.FirstChild(); node; node = node->NextSibling())
+    if (const auto* part = node->ToText()) text += part->Value();
+  return text;
+}
+
+}  // namespace
+
 std::optional<std::string> SdfFile::text_in(const XmlElement& parent, const char* name) {
   const XmlElement* found = child(parent, name);
   if (!found) return {};
-  const char* text = found->GetText();
-  const std::vector<Word> list = words(text ? text : "");
+  const std::vector<Word> list = words(text_of(*found));
   std::string joined;
   for (const Word& word : list) joined += (joined.empty() ? "" : " ") + word.text;
   return joined;
 }
 
 std::vector<double> SdfFile::numbers(const XmlElement& item) {
-  const char* text = item.GetText();
   std::vector<double> list;
-  for (const Word& word : words(text ? text : "")) list.push_back(parsed(element(item), word.text));
+  for (const Word& word : words(text_of(item))) list.push_back(parsed(element(item), word.text));
   return list;
 }
 
@@ -41,9 +51,18 @@ double SdfFile::number_in(const XmlElement& parent, const char* name, double oth
 bool SdfFile::flag_in(const XmlElement& parent, const char* name, bool otherwise) {
   const std::optional<std::string> text = text_in(parent, name);
   if (!text) return otherwise;
-  if (*text == "1" || *text == "true" || *text == "True" || *text == "TRUE") return true;
-  if (*text == "0" || *text == "false" || *text == "False" || *text == "FALSE") return false;
-  error(element(*child(parent, name)), fmt::format("<{}> is true or false, not '{}'", name, shown(*text)));
+  return truth(element(*child(parent, name)), fmt::format("<{}>", name), *text, otherwise);
+}
+
+bool SdfFile::truth_of(const XmlElement& item, const char* attribute, bool otherwise) {
+  const char* text = item.Attribute(attribute);
+  return text ? truth(value(item, attribute), fmt::format("'{}'", attribute), text, otherwise) : otherwise;
+}
+
+bool SdfFile::truth(SourceRange where, const std::string& what, const std::string& text, bool otherwise) {
+  if (text == "1" || text == "true" || text == "True" || text == "TRUE") return true;
+  if (text == "0" || text == "false" || text == "False" || text == "FALSE") return false;
+  error(where, fmt::format("{} is true or false, not '{}'", what, shown(text)));
   return otherwise;
 }
 
@@ -95,7 +114,11 @@ SdfPose SdfFile::pose_in(const XmlElement& parent, SourceRange& where) {
   if (!found) return {};
   where = element(*found);
   const std::vector<double> list = numbers(*found);
+  check_attributes(*found, {version >= 7 ? "relative_to" : "frame", "rotation_format", "degrees"});
   const char* format = found->Attribute("rotation_format");
+  if (format && std::string_view(format) != "quat_xyzw" && std::string_view(format) != "euler_rpy")
+    error(value(*found, "rotation_format"),
+          fmt::format("'rotation_format' is euler_rpy or quat_xyzw, not '{}'", shown(format)));
   const bool is_quaternion = format && std::string_view(format) == "quat_xyzw";
   if (list.empty()) return {};
   if (list.size() != (is_quaternion ? 7U : 6U)) {
@@ -111,7 +134,7 @@ SdfPose SdfFile::pose_in(const XmlElement& parent, SourceRange& where) {
     else
       error(where, "the quaternion of <pose> is zero");
   } else {
-    const bool degrees = found->BoolAttribute("degrees", false);
+    const bool degrees = truth_of(*found, "degrees", false);
     const double unit = degrees ? std::numbers::pi / 180 : 1;
     pose.rotation = rotation_from_rpy(
         {snapped(unit * list[3], where), snapped(unit * list[4], where), snapped(unit * list[5], where)});

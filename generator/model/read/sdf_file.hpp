@@ -26,6 +26,8 @@ class SdfFile : public UrdfFile {
   std::optional<std::string> text_in(const XmlElement& parent, const char* name);
   double number_in(const XmlElement& parent, const char* name, double otherwise);
   bool flag_in(const XmlElement& parent, const char* name, bool otherwise);
+  /// An attribute that is true or false.
+  bool truth_of(const XmlElement& element, const char* attribute, bool otherwise);
   /// Three numbers of the element itself.
   std::array<double, 3> triple_of(const XmlElement& element, const std::array<double, 3>& otherwise);
   /// A limit; nothing where it is missing or at least 1e15, which stands for none.
@@ -48,6 +50,7 @@ class SdfFile : public UrdfFile {
   void note_snapped();
 
  private:
+  bool truth(SourceRange where, const std::string& what, const std::string& text, bool otherwise);
   std::vector<double> numbers(const XmlElement& element);
   double snapped(double angle, SourceRange where);
 

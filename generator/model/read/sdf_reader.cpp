@@ -91,6 +91,9 @@ class SdfReader {
       if (const std::optional<std::string> name = file_.name(*e)) read_model(*e, "", "", *name + "::", false);
     read_frames_and_joints(world, "", false);
     report_left_out(world);
+    if (const XmlElement* state = world.FirstChildElement("state"))
+      file_.diagnostics().warning(file_.element(*state), "the <state> of the <world> is ignored",
+                                  "motions start where the models' poses put them");
   }
 
   /// `scope` is that of the names in the model, `outer` that of its own, `base` the frame around it.
@@ -237,7 +240,7 @@ class SdfReader {
                       shown(body.name)));
     if (!inertial) return;
     file_.check_elements(*inertial, {"pose", "mass", "inertia", "density"});
-    if (inertial->BoolAttribute("auto", false))
+    if (file_.truth_of(*inertial, "auto", false))
       file_.error(file_.value(*inertial, "auto"), "an inertia that follows from geometry is not read",
                   "write <mass> and <inertia>");
     link.inertial = file_.pose_in(*inertial, link.inertial_where);

@@ -35,6 +35,18 @@ void UrdfFile::check_children(const XmlElement& parent, const std::vector<std::s
   }
 }
 
+void UrdfFile::check_attributes(const XmlElement& where, const std::vector<std::string>& known) {
+  for (const auto* attribute = where.FirstAttribute(); attribute; attribute = attribute->Next()) {
+    const std::string name = attribute->Name();
+    if (name.find(':') != std::string::npos || std::find(known.begin(), known.end(), name) != known.end())
+      continue;
+    const std::string close = support::nearest(name, known);
+    diagnostics_.warning(value(where, attribute->Name()),
+                         fmt::format("attribute '{}' of <{}> is ignored", shown(name), shown(where.Name())),
+                         close.empty() ? "" : fmt::format("did you mean '{}'?", close));
+  }
+}
+
 std::optional<std::string> UrdfFile::required(const XmlElement& where, const char* attribute) {
   if (const char* text = where.Attribute(attribute)) return text;
   diagnostics_.error(element(where), fmt::format("<{}> needs the attribute '{}'", where.Name(), attribute));

@@ -41,6 +41,9 @@ class UrdfFile {
   /// programs.
   void check_children(const XmlElement& parent, const std::vector<std::string>& known);
 
+  /// Warns of attributes that are not `known`. Those with a prefix (xmlns:xacro) are of other programs.
+  void check_attributes(const XmlElement& element, const std::vector<std::string>& known);
+
   /// The text of an attribute that must be there; nothing after a diagnostic.
   std::optional<std::string> required(const XmlElement& element, const char* attribute);
   /// A name: required, printable, not empty, at most 100 characters.

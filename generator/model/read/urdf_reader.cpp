@@ -11,6 +11,7 @@
 #include "model/read/urdf_file.hpp"
 #include "model/read/urdf_limits.hpp"
 #include "model/read/urdf_mimic.hpp"
+#include "model/read/urdf_schema.hpp"
 #include "model/read/xml_text.hpp"
 
 namespace jourdain::model {
@@ -34,6 +35,7 @@ class UrdfReader {
         read_link(*e);
       for (const auto* e = robot.FirstChildElement("joint"); e; e = e->NextSiblingElement("joint"))
         read_joint(*e);
+      check_urdf(file_, robot);
     } else {
       file_.complete().structure = false;
     }
