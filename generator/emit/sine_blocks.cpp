@@ -73,7 +73,7 @@ class Beginning {
       if (declare.change != Declare::Change::kConstant || declare.type.kind != Type::Kind::kReal ||
           declare.variables.size() != 1 || !declare.variables[0].value)
         return false;
-      needed.insert(variable);
+      if (!needed.insert(variable).second) return true;  // looked at already, or this ends with false
       return is_known(*declare.variables[0].value, needed);
     });
   }

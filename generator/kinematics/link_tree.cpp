@@ -57,11 +57,16 @@ Matrix3 orthonormal(const Matrix3& A) {
   return A * rest;
 }
 
+/// Whether z is sign times the unit vector of an axis. One entry does not tell: beside 1e-24 a component is 1.
+bool is_axis(const Vector3& z, std::size_t axis, int sign) {
+  return z[axis].is_equal(sign) && z[(axis + 1) % 3].is_zero() && z[(axis + 2) % 3].is_zero();
+}
+
 Matrix3 frame_along(const Vector3& z) {
-  if (z[2].is_equal(1)) return identity_matrix();
-  if (z[0].is_equal(1)) return {{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}};
-  if (z[1].is_equal(1)) return {{{0, 1, 0}, {0, 0, 1}, {1, 0, 0}}};
-  if (z[2].is_equal(-1)) return {{{1, 0, 0}, {0, -1, 0}, {0, 0, -1}}};
+  if (is_axis(z, 2, 1)) return identity_matrix();
+  if (is_axis(z, 0, 1)) return {{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}};
+  if (is_axis(z, 1, 1)) return {{{0, 1, 0}, {0, 0, 1}, {1, 0, 0}}};
+  if (is_axis(z, 2, -1)) return {{{1, 0, 0}, {0, -1, 0}, {0, 0, -1}}};
   const Ex rho = square_root(z[0] * z[0] + z[1] * z[1]);
   const Vector3 x = {-z[1] / rho, z[0] / rho, 0};
   const Vector3 y = cross(z, x);
@@ -163,7 +168,7 @@ class Builder {
   /// Chooses the link frame: z on the axis, pointing along the parent's positive axes where it is aligned with one.
   void align(Link& link, const std::array<double, 3>& axis, const BodyPose& pose) {
     Vector3 z = bound("axis_" + link.name, pose.R_LB * unit_vector(axis));
-    if (z[0].is_equal(-1) || z[1].is_equal(-1) || z[2].is_equal(-1)) {
+    if (is_axis(z, 0, -1) || is_axis(z, 1, -1) || is_axis(z, 2, -1)) {
       link.sign = -1;
       z = Ex(-1) * z;
     }
@@ -172,7 +177,7 @@ class Builder {
     link.R_PL = bound("R_" + link.name, numeric ? frame_along(z) : pose.R_LB * R_JL);
     link.R_LJ =
         numeric ? bound("R_" + link.name, orthonormal(transpose(link.R_PL) * pose.R_LB)) : transpose(R_JL);
-    link.parallel = options_.share_parallel && pose.link != kGround && z[2].is_equal(1);
+    link.parallel = options_.share_parallel && pose.link != kGround && is_axis(z, 2, 1);
     if (far_[link.joint.value]) return;
     if (link.kind == LinkKind::kSlide) {
       link.r_PL = zero_vector();

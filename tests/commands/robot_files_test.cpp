@@ -49,6 +49,23 @@ TEST_F(RobotFiles, IndefiniteInertiasAreUsedAndSaidWhereTheyDoNoHarm) {
          "error: joint 'hinge' moves a negative inertia");
 }
 
+/// In a gimbal's lock the second axis is 1e-33 beside one of the frame before: not along it.
+TEST_F(RobotFiles, AxesBesideOthersAreNotAlongThem) {
+  const std::string inertia =
+      R"(<inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0.1"/></inertial></link>)";
+  const std::string links =
+      R"(<robot name="r"><link name="base"/><link name="a"><inertial><mass value="1"/>)" + inertia +
+      R"(<link name="b"><inertial><origin xyz="1 0 0"/><mass value="1"/>)" + inertia;
+  for (const std::string rpy : {"1.5707963267948966 1.5707963267948966 0", "1.57079632679 1.57079632679 0",
+                                "-1.5707963267948966 1.5707963267948966 0.4"}) {
+    const std::string joints =
+        R"(<joint name="j" type="revolute"><parent link="base"/><child link="a"/><origin rpy=")" + rpy +
+        R"("/><axis xyz="0 1 0"/></joint><joint name="k" type="revolute"><parent link="a"/><child link="b"/>)"
+        R"(<axis xyz="0 0 1"/></joint></robot>)";
+    expect(jourdain("r.urdf", links + joints, {"check", "--no-snap"}), 0, "ok: r");
+  }
+}
+
 TEST_F(RobotFiles, StrictTakesNoWarnings) {
   expect(jourdain("p.urdf", pendulum("0 0 1"), {"check", "--strict"}), 1, "--strict takes no warnings");
   expect(jourdain("p.urdf", pendulum("0 0 1", "0", "0.1"), {"check", "--strict"}), 0, "ok: pendulum");

@@ -59,5 +59,19 @@ TEST(SineBlocks, LeaveWhatRunsInALoop) {
   EXPECT_FALSE(in_sine_blocks(body));
 }
 
+/// What an angle is made of is looked at once, however often it is used: 2^200 ways lead back here.
+TEST(SineBlocks, LookAtEachValueOnce) {
+  Statements body;
+  body.push_back(constant("v0", y(0) + y(1)));
+  for (int i = 1; i <= 200; ++i) {
+    const std::string before = "v" + std::to_string(i - 1);
+    body.push_back(constant("v" + std::to_string(i), name(before) * y(0) + name(before) * y(1)));
+  }
+  add_pair(body, y(0), "s0", "c0");
+  add_pair(body, name("v200"), "s1", "c1");
+  EXPECT_NE(text(in_sine_blocks(body).value()).find("detail::sine_cosine2(y[0], s0, c0, v200, s1, c1);"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace jourdain::emit
