@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -198,6 +200,14 @@ T Expression::evaluate(std::span<const T> parameters, Literal&& literal, Variabl
   using support::value_of;
   std::vector<T> values;
   values.reserve(nodes_.size());
+  // 1/(1/0) is no number, though it would be 0 in doubles.
+  const auto number = [](T value) {
+    if constexpr (std::is_floating_point_v<T>)
+      return support::finite_or_nan(value);
+    else if constexpr (requires(T carrier) { requires std::floating_point<decltype(carrier.value)>; })
+      value.value = support::finite_or_nan(value.value);
+    return value;
+  };
   for (const Node& node : nodes_) {
     switch (node.op) {
       case Op::kLiteral:
@@ -223,13 +233,13 @@ T Expression::evaluate(std::span<const T> parameters, Literal&& literal, Variabl
         values.push_back(T(values[node.left] * values[node.right]));
         break;
       case Op::kDivide:
-        values.push_back(T(values[node.left] / values[node.right]));
+        values.push_back(number(T(values[node.left] / values[node.right])));
         break;
       case Op::kPower: {
         T product = literal(1.0);
         for (int i = 0; i < (node.exponent < 0 ? -node.exponent : node.exponent); ++i)
           product = T(product * values[node.left]);
-        values.push_back(node.exponent < 0 ? T(literal(1.0) / product) : product);
+        values.push_back(number(node.exponent < 0 ? T(literal(1.0) / product) : product));
         break;
       }
       case Op::kSqrt:
@@ -242,7 +252,7 @@ T Expression::evaluate(std::span<const T> parameters, Literal&& literal, Variabl
         values.push_back(T(cos(values[node.left])));
         break;
       case Op::kFunction:
-        values.push_back(T(value_of(node.function, values[node.left], values[node.right])));
+        values.push_back(number(T(value_of(node.function, values[node.left], values[node.right]))));
         break;
     }
   }

@@ -4,9 +4,12 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string_view>
+#include <type_traits>
 
 #include "support/called_function.hpp"
 #include "support/check.hpp"
@@ -104,10 +107,24 @@ Real stand_in_of(const Real& s, const Real& b, std::size_t more) {
   return stand_in<Real>(function, more, sin(at), cos(at), [](double x) { return number_in<Real>(x); });
 }
 
+template <std::floating_point Real>
+Real finite_or_nan(Real x) {
+  return std::isfinite(x) ? x : std::numeric_limits<Real>::quiet_NaN();
+}
+
+/// Whether what it is decided by is not a number, so that either side would be taken by chance.
+template <std::floating_point Real>
+bool is_undecided(Function function, const Real& a, const Real& b) {
+  const bool compares = function == Function::kMin || function == Function::kMax;
+  return std::isnan(a) || (compares && std::isnan(b));
+}
+
 /// Of functions with kinks, for any type with <, fabs and floor that is made from doubles, and whose Real{} is zero.
 template <class Real>
 Real value_with_kinks(Function function, const Real& a, const Real& b) {
   using std::fabs, std::floor;
+  if constexpr (std::is_floating_point_v<Real>)
+    if (is_undecided(function, a, b)) return std::numeric_limits<Real>::quiet_NaN();
   switch (function) {
     case Function::kAbs:
       return fabs(a);

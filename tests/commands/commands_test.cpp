@@ -142,15 +142,20 @@ TEST(CommandLine, EveryMalformedModelEndsWithStatusOne) {
 TEST(CommandLine, AForceWithoutAValueAtTheStartIsTheModelsFault) {
   const support::TemporaryFolder folder;
   const std::string file = folder.path() + "/start.toml";
-  for (const std::string value : {"1/hinge", "sqrt(-1 - hinge^2)"}) {
+  const auto check = [&](const std::string& value) {
     support::write_file(
         file,
         "[model]\nname = \"start\"\n[[body]]\nname = \"b\"\nmass = 1\ninertia = [1, 1, 1]\n"
         "[[joint]]\nname = \"hinge\"\ntype = \"revolute\"\nparent = \"world\"\nchild = \"b\"\n"
         "[[force]]\njoint = \"hinge\"\nvalue = \"" +
             value + "\"\n");
-    expect(jourdain({"check", file}), 1, "force 'force1' has no finite value at the initial state");
-  }
+    return jourdain({"check", file});
+  };
+  for (const std::string value :
+       {"1/hinge", "sqrt(-1 - hinge^2)", "min(1/hinge^2, 3)", "max(3, 1/hinge^2)", "if(1/hinge^2 > 3, 1, 2)",
+        "exp(-1/hinge^2)", "1/(1 + 1/hinge)", "atan(1/hinge)", "sign(log(hinge^2))"})
+    expect(check(value), 1, "force 'force1' has no finite value at the initial state");
+  expect(check("if(hinge^2 > 0, min(1/hinge^2, 3), 0)"), 0, "ok: start");
 }
 
 TEST(CommandLine, AStartInAGimbalsLockIsTheModelsFault) {
