@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -39,6 +41,14 @@ ir::Program lowered(const dynamics::Equations& equations) {
   return lowering::lower(equations.statements, targets, "zdot");
 }
 
+/// What a link's joint is, and which entries of its pose are not zero.
+std::string shape_of(const kinematics::Link& link) {
+  std::string shape(1, static_cast<char>('A' + static_cast<int>(link.kind)));
+  for (const kinematics::Vector3& row : {link.R_PL[0], link.R_PL[1], link.R_PL[2], link.r_PL})
+    for (const kinematics::Ex& entry : row.entries) shape += entry.is_zero() ? '0' : '1';
+  return shape;
+}
+
 class Choice {
  public:
   Choice(const model::Mechanism& mechanism, const dynamics::DerivationOptions& options)
@@ -53,6 +63,7 @@ class Choice {
       const bool root = link.parent == kGround;
       depth_.push_back(root ? 0 : depth_[link.parent] + 1);
       parent_.push_back(link.parent);
+      shape_.push_back(shape_of(link));
     }
     children_.resize(parent_.size());
     for (std::size_t i = 0; i < parent_.size(); ++i)
@@ -214,10 +225,24 @@ class Choice {
     return result;
   }
 
+  /// The links of a branch, what they are made of and which are articulated: of both legs of a robot the same.
+  std::string look_of(std::size_t branch, const std::vector<bool>& links) const {
+    std::string look;
+    for (std::size_t i = branch; i < parent_.size(); ++i)
+      if (is_in(i, branch)) look += fmt::format("{}{}{};", depth_[i], links[i] ? 'a' : 'm', shape_[i]);
+    return look;
+  }
+
   void refine(Articulation& best) {
-    for (const std::size_t branch : branches())
+    std::set<std::string> settled;  // looks of branches where no change saved anything
+    for (const std::size_t branch : branches()) {
+      const std::string look = look_of(branch, best.links);
+      if (settled.contains(look)) continue;
+      bool saved = false;
       for (const bool more : {true, false})
-        while (keep(best, changed(best.links, branch, more))) continue;
+        while (keep(best, changed(best.links, branch, more))) saved = true;
+      if (!saved) settled.insert(look);
+    }
   }
 
   const model::Mechanism& mechanism_;
@@ -227,6 +252,7 @@ class Choice {
   bool moves_in_planes_ = false, has_link_equations_ = false;
   std::size_t velocities_ = 0;
   std::vector<std::size_t> depth_, parent_, children_;
+  std::vector<std::string> shape_;
   std::map<Way, std::size_t> counted_;
 };
 

@@ -136,8 +136,11 @@ std::vector<Omission> find_omissions(const model::Mechanism& mechanism, const Co
     CompileOptions changed = options;
     s.off(other, changed);
     const ir::Module module =
-        s.only_pass ? lowered
-                    : forward_module(dynamics::derive_equations(other, changed.derivation), compiled.facts);
+        s.only_pass
+            ? lowered
+            : forward_module(
+                  dynamics::AccelerationWays(other, changed.derivation.link_tree).by(changed.derivation),
+                  compiled.facts);
     const long without = static_cast<long>(optimised_operations(module, changed));
     if (without != with) list.push_back({s.name, s.what, without - with});
   }
