@@ -29,8 +29,8 @@ struct BenchArguments {
 };
 
 /// What is emitted and measured where nothing is asked for: derivatives too, unless they take long to compile.
-std::vector<std::string> usual_functions(const LoadedMechanism& loaded) {
-  std::vector<std::string> functions = programs::default_functions();
+std::vector<std::string> functions_to_measure(const LoadedMechanism& loaded) {
+  std::vector<std::string> functions = usual_functions(loaded.mechanism);
   if (loaded.velocity_count() <= kMostVelocities)
     functions.emplace_back(ir::name_of(ir::FunctionId::kForwardDynamicsDerivatives));
   return functions;
@@ -57,9 +57,12 @@ int run(BenchArguments arguments) {
   if (!loaded) return kModelWrong;
   EmissionArguments emission;
   emission.functions =
-      with_states(arguments.functions.empty() ? usual_functions(*loaded) : arguments.functions);
+      with_states(arguments.functions.empty() ? functions_to_measure(*loaded) : arguments.functions);
   emission.real = arguments.real;
-  if (const std::string wrong = emission.apply(*loaded); !wrong.empty()) {
+  std::string wrong = emission.apply(*loaded);
+  emission.functions = arguments.functions;
+  if (wrong.empty()) wrong = emission.tell_absent_functions(*loaded);
+  if (!wrong.empty()) {
     fmt::print(stderr, "error: {}\n", wrong);
     return kUsage;
   }

@@ -96,6 +96,12 @@ std::string EmissionArguments::tell_absent_functions(const LoadedMechanism& load
   return "";
 }
 
+std::vector<std::string> usual_functions(const model::Mechanism& mechanism) {
+  std::vector<std::string> functions = programs::default_functions();
+  for (const model::KinematicFunction& function : mechanism.kinematics) functions.push_back(function.name);
+  return functions;
+}
+
 std::vector<std::string> emission_words(const CLI::App& command) {
   std::vector<std::string> words;
   for (const CLI::Option* option : command.get_options()) {

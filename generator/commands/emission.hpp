@@ -34,6 +34,9 @@ struct EmissionArguments {
   std::string tell_absent_functions(const LoadedMechanism& loaded) const;
 };
 
+/// Every function of the default lists, and those of the kinematics that the description asks for.
+std::vector<std::string> usual_functions(const model::Mechanism& mechanism);
+
 /// The options of a parsed command that decide what the files hold, in the order of the help, each as one word that may
 /// be given again: "--root=free", "--functions=initial_state,rk4_step", "--no-damping". Empty where none was given.
 std::vector<std::string> emission_words(const CLI::App& command);

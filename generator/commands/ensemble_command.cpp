@@ -3,7 +3,6 @@
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
 
-#include <cmath>
 #include <filesystem>
 #include <memory>
 
@@ -18,6 +17,7 @@
 #include "commands/number_checks.hpp"
 #include "commands/output_guard.hpp"
 #include "commands/progress.hpp"
+#include "commands/run_length.hpp"
 #include "commands/run_setup.hpp"
 #include "commands/spread_check.hpp"
 #include "support/files.hpp"
@@ -26,7 +26,6 @@ namespace jourdain::commands {
 
 namespace {
 
-constexpr double kMostSteps = 1e9;
 constexpr std::uint64_t kMostNumbers = 100000000;  ///< of all rows, which are kept until they are written
 
 struct EnsembleArguments {
@@ -67,13 +66,8 @@ void step_all(const EnsembleProgram& program, EnsembleResult& result) {
 }
 
 int run(EnsembleArguments arguments) {
-  const double exact_steps = arguments.duration / arguments.step;
-  if (!(exact_steps >= 1 && exact_steps <= kMostSteps)) {
-    fmt::print(stderr,
-               "error: --duration {:g} at --step {:g} is {:.3g} steps; between 1 and {:g} are possible\n",
-               arguments.duration, arguments.step, exact_steps, kMostSteps);
-    return kUsage;
-  }
+  const std::optional<long> steps = steps_asked_for(arguments.duration, arguments.step);
+  if (!steps) return kUsage;
   const std::optional<Shard> shard = read_shard(arguments.shard, arguments.states);
   if (!shard) {
     fmt::print(
@@ -133,7 +127,7 @@ int run(EnsembleArguments arguments) {
   result.facts = facts_of(*model, compiled, arguments.choices, arguments.spreads);
   result.facts.program_sha256 = program.sha256();
   result.facts.step = arguments.step;
-  result.facts.steps = static_cast<std::uint64_t>(std::llround(exact_steps));
+  result.facts.steps = static_cast<std::uint64_t>(*steps);
   result.facts.states = arguments.states;
   result.facts.accuracy = arguments.accuracy;
   step_all(program, result);

@@ -37,8 +37,8 @@ struct PythonArguments {
 };
 
 /// All functions, every step of a cost that is easily compiled, and A, B, C, D where these are not long.
-std::vector<std::string> usual_functions(const LoadedMechanism& loaded) {
-  std::vector<std::string> functions = programs::default_functions();
+std::vector<std::string> functions_of_modules(const LoadedMechanism& loaded) {
+  std::vector<std::string> functions = usual_functions(loaded.mechanism);
   for (const programs::Stepper& stepper : programs::all_steppers())
     if (!stepper.implicit && check_steps({stepper.name}, loaded).empty())
       functions.push_back(stepper.name + "_step");
@@ -48,7 +48,7 @@ std::vector<std::string> usual_functions(const LoadedMechanism& loaded) {
 
 std::string choose(const PythonArguments& arguments, LoadedMechanism& loaded) {
   EmissionArguments emission;
-  emission.functions = arguments.functions.empty() ? usual_functions(loaded) : arguments.functions;
+  emission.functions = arguments.functions.empty() ? functions_of_modules(loaded) : arguments.functions;
   // The module asks whether a state closes its loops, and says how it is closed.
   for (const FunctionId id : {FunctionId::kCloseLoops, FunctionId::kProject, FunctionId::kConstraintResidual})
     emission.functions.emplace_back(ir::name_of(id));
@@ -58,7 +58,10 @@ std::string choose(const PythonArguments& arguments, LoadedMechanism& loaded) {
   emission.interface = emission.clock = true;
   emission.libm = arguments.libm;
   if (std::string wrong = wrong_module_name(loaded.options.name); !wrong.empty()) return wrong;
-  return emission.apply(loaded);
+  std::string wrong = emission.apply(loaded);
+  if (!wrong.empty()) return wrong;
+  emission.functions = arguments.functions;
+  return emission.tell_absent_functions(loaded);
 }
 
 /// The model as C++ of packs: its start, and the steps that ensembles know.

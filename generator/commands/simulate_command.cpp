@@ -17,6 +17,7 @@
 #include "commands/printable.hpp"
 #include "commands/progress.hpp"
 #include "commands/run_bounds.hpp"
+#include "commands/run_length.hpp"
 #include "commands/run_setup.hpp"
 #include "commands/signal_choice.hpp"
 #include "commands/signal_plot.hpp"
@@ -33,8 +34,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using studies::Flow;
 using studies::Point;
-
-constexpr double kLongestRun = 1e9;  ///< steps
 
 struct SimulateArguments {
   RunArguments run;
@@ -194,13 +193,8 @@ void print_summary(const RunModel& model, const RunInputs& inputs, const Simulat
 }
 
 int run(const SimulateArguments& arguments) {
-  const double exact_steps = arguments.duration / arguments.step;
-  if (!(exact_steps >= 1 && exact_steps <= kLongestRun)) {
-    fmt::print(stderr,
-               "error: --duration {:g} at --step {:g} is {:.3g} steps; between 1 and {:g} are possible\n",
-               arguments.duration, arguments.step, exact_steps, kLongestRun);
-    return kUsage;
-  }
+  const std::optional<long> steps = steps_asked_for(arguments.duration, arguments.step);
+  if (!steps) return kUsage;
   if (!arguments.plot.empty()) report::check_plotter();
   int status = kSuccess;
   std::optional<RunModel> model = read_run(arguments.run, status);
@@ -237,14 +231,13 @@ int run(const SimulateArguments& arguments) {
   Flow<double> flow(loaded.table(), *inputs->inputs);
   flow.set_start(inputs->start);
   if (!check_closed(*model, flow)) return kModelWrong;
-  const long steps = std::lround(exact_steps);
   std::string csv;
   const bool conserves = inputs->what.empty() && report::conserves_energy(model->loaded.mechanism);
   const std::optional<LoopGuard> guard =
       model->loaded.plan() ? std::optional<LoopGuard>(std::in_place, flow, model->loaded, arguments.step)
                            : std::nullopt;
   const Trajectory result =
-      Simulation(flow, arguments, conserves, signals, *selection, guard ? &*guard : nullptr).run(steps, csv);
+      Simulation(flow, arguments, conserves, signals, *selection, guard ? &*guard : nullptr).run(*steps, csv);
   if (result.breach) {
     fmt::print(stderr, "{}",
                breach_text(flow, programs::displaced_tangent(compiled.facts), *result.breach,
@@ -261,7 +254,7 @@ int run(const SimulateArguments& arguments) {
     return kSuccess;
   }
   support::write_file(output, csv);
-  print_summary(*model, *inputs, arguments, loaded.table(), result, steps);
+  print_summary(*model, *inputs, arguments, loaded.table(), result, *steps);
   fmt::print("  wrote {}{}\n", output, picture.empty() ? "" : ", " + plot->file);
   return kSuccess;
 }

@@ -200,8 +200,9 @@ T Expression::evaluate(std::span<const T> parameters, Literal&& literal, Variabl
   using support::value_of;
   std::vector<T> values;
   values.reserve(nodes_.size());
-  // 1/(1/0) is no number, though it would be 0 in doubles.
-  const auto number = [](T value) {
+  // 1/(1/0) is no number, though it would be 0 in doubles; 1/0 is infinite.
+  const auto number = [&](T value) {
+    if (values.size() + 1 == nodes_.size()) return value;
     if constexpr (std::is_floating_point_v<T>)
       return support::finite_or_nan(value);
     else if constexpr (requires(T carrier) { requires std::floating_point<decltype(carrier.value)>; })

@@ -8,6 +8,9 @@ namespace jourdain::support {
 
 namespace {
 
+/// What spreadsheets write before UTF-8.
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
 std::vector<CsvField> fields_of(std::string_view line) {
   std::vector<CsvField> fields;
   for (std::size_t begin = 0; begin <= line.size();) {
@@ -24,6 +27,7 @@ std::vector<CsvField> fields_of(std::string_view line) {
 }  // namespace
 
 std::vector<CsvRow> csv_rows(std::string_view text) {
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   std::vector<CsvRow> rows;
   int number = 0;
   for (std::size_t begin = 0; begin < text.size();) {

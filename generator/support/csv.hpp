@@ -18,7 +18,7 @@ struct CsvRow {
   std::vector<CsvField> fields;  ///< one or more
 };
 
-/// The rows of a text, without empty lines.
+/// The rows of a text, without empty lines and a byte order mark before the first.
 std::vector<CsvRow> csv_rows(std::string_view text);
 
 /// The finite number that all of a field is; nothing where it is none.

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 
 #include "support/files.hpp"
@@ -222,6 +223,42 @@ TEST(Cost, MistakesEndWithTheirStatusAndWriteNothing) {
   const support::ProcessResult result =
       jourdain({"cost", "models/pendulum.toml", "--methods", "rk4", "-o", "/proc/nowhere/cost.json"});
   EXPECT_EQ(result.status, 3) << result.output;
+}
+
+/// What `compile` counts.
+json manifest_of(const std::string& model, const std::string& functions) {
+  const support::TemporaryFolder folder;
+  const support::ProcessResult result =
+      jourdain({"compile", "models/" + model + ".toml", "--functions", functions, "-o", folder.path()});
+  EXPECT_EQ(result.status, 0) << result.output;
+  return json::parse(support::read_file(folder.path() + "/" + model + ".json"));
+}
+
+std::string page(const std::string& name) {
+  return support::read_file(std::string(JOURDAIN_SOURCE_DIR) + "/" + name);
+}
+
+TEST(CostPage, OperationsOfAStepAreCounted) {
+  const json steps = manifest_of("ur5", "rk4_step")["steps"];
+  EXPECT_NE(page("runtime/steppers.md")
+                .find(fmt::format("RK4 on the UR5 in double: {}\noperations",
+                                  steps["rk4_step"]["operations"].get<long>())),
+            std::string::npos);
+}
+
+TEST(CostPage, OperationsOfLinearisationsAreCounted) {
+  const std::string text = page("generator/operations.md");
+  std::istringstream lines(text.substr(text.find("| emitted by default |")));
+  std::size_t rows = 0;
+  const std::regex row("\\| ([a-z0-9_]+).* \\| [0-9]+ \\| ([0-9]+) \\|");
+  std::smatch parts;
+  for (std::string line; std::getline(lines, line) && !line.empty();) {
+    if (!std::regex_match(line, parts, row)) continue;
+    const json operations = manifest_of(parts[1], "linearize")["operations"];
+    EXPECT_EQ(operations["linearize"]["arithmetic"], std::stol(parts[2])) << line;
+    ++rows;
+  }
+  EXPECT_EQ(rows, 5u);
 }
 
 }  // namespace

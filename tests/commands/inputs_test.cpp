@@ -102,6 +102,13 @@ TEST_F(DrivenRuns, PlotsShowTheCoordinates) {
   EXPECT_NE(text.find("rail"), std::string::npos);
 }
 
+TEST_F(DrivenRuns, TablesMayBeThoseOfSpreadsheets) {
+  const std::string inputs = write("u.csv", "\xEF\xBB\xBFtime,push\r\n0,4\r\n1,4\r\n");
+  expect(simulate(slider(), {"--inputs", inputs, "--duration", "1", "--step", "0.01"}), 0,
+         "inputs from a table");
+  EXPECT_NEAR(last(1), 1, 1e-12);
+}
+
 TEST_F(DrivenRuns, WrongTablesAreDiagnosed) {
   const auto message = [&](const std::string& text, const std::string& part) {
     expect(simulate(slider(), {"--inputs", write("u.csv", text)}), 1, part);

@@ -91,6 +91,27 @@ TEST(Options, FunctionsThatASceneHasNotAreTold) {
   expect(compile("mass_matrix,project"), 0, "note: --functions: 'pendulum' has no project\n");
   expect(compile("project", {"--frame", "tip=bob:pose"}), 0, "note: --functions: 'pendulum' has no project");
   EXPECT_EQ(compile("mass_matrix").output.find("note:"), std::string::npos);
+  const std::string note = "note: --functions: 'pendulum' has no project";
+  expect(jourdain({"bench", kHinge, "--blocks", "1", "--states", "1", "--functions", "mass_matrix,project"}),
+         0, note);
+  expect(jourdain({"python", kHinge, "-o", out, "--functions", "mass_matrix,project"}), 0, note);
+  EXPECT_EQ(jourdain({"python", kHinge, "-o", out, "--functions", "mass_matrix"}).output.find("note:"),
+            std::string::npos);
+}
+
+TEST(Options, DurationsAreWholeStepsOrToldSo) {
+  const auto simulate = [](const std::string& duration, const std::string& step) {
+    return jourdain({"simulate", kHinge, "--output", "-", "--duration", duration, "--step", step});
+  };
+  const std::string note =
+      "note: --duration 1 is 333.3333333 steps of --step 0.003: 333 are made, up to t = 0.999 s\n";
+  expect(simulate("1", "0.003"), 0, note);
+  expect(jourdain({"ensemble", kHinge, "--states", "2", "--duration", "1", "--step", "0.003", "--spread",
+                   "m=uniform(50%)"}),
+         0, note);
+  for (const std::string whole : {"0.01", "0.001", "0.0033333333", "0.3333333"})
+    EXPECT_EQ(simulate("1", whole).output.find("note:"), std::string::npos) << whole;
+  expect(simulate("1", "3"), 2, "is 0.333 steps; between 1 and 1e+09 are possible");
 }
 
 }  // namespace

@@ -256,5 +256,23 @@ TEST(Python, FunctionsAndFramesAreThoseAskedFor) {
                         "'tool_pose', 'tool_velocity']"));
 }
 
+TEST(Python, KinematicsOfTheDescriptionAreThere) {
+  const support::TemporaryFolder folder;
+  const std::string model = folder.path() + "/swing.toml";
+  support::write_file(model, support::read_file(kSource + "/models/pendulum.toml") +
+                                 "\n[[kinematics]]\nname = \"tip\"\nframe = \"bob\"\nquantities = "
+                                 "[\"pose\"]\n\n[[kinematics]]\nquantities = [\"gravity_compensation\"]\n");
+  const ProcessResult made = make(model, folder.path());
+  ASSERT_EQ(made.status, 0) << made.output;
+  const ProcessResult result = run_python({"-c",
+                                           "import pendulum\nmodel = pendulum.Model()\n"
+                                           "state = model.initial_state()\n"
+                                           "assert abs(model.gravity_compensation(state)[0] - 9.81*"
+                                           "__import__('math').sin(state.y[0])) < 1e-12\n"
+                                           "position, rotation = model.tip_pose(state)\nprint(position)"},
+                                          folder.path());
+  EXPECT_EQ(result.status, 0) << result.output;
+}
+
 }  // namespace
 }  // namespace jourdain::tests
