@@ -58,8 +58,9 @@ class Flow {
 
   bool has_loops() const { return table_.correct != nullptr; }
 
-  /// The state that the description starts from, or the one that was set, after a step of no length: its
-  /// quaternions have unit length in this number type, and its loops are closed, if they can be from there.
+  /// The state that the description starts from, or the one that was set, with the positions that a step of no
+  /// length leaves: its quaternions have unit length in this number type. Its loops are closed, if they can be
+  /// from there.
   Point<Real> start() const;
   void set_start(const std::vector<double>& x) { start_ = x; }
   /// From now on steps get inputs as numbers, those of their begin, and hold them.

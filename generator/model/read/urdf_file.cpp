@@ -35,13 +35,21 @@ void UrdfFile::check_children(const XmlElement& parent, const std::vector<std::s
   }
 }
 
-void UrdfFile::check_attributes(const XmlElement& where, const std::vector<std::string>& known) {
+std::vector<std::string> UrdfFile::other_attributes(const XmlElement& where,
+                                                    const std::vector<std::string>& known) {
+  std::vector<std::string> others;
   for (const auto* attribute = where.FirstAttribute(); attribute; attribute = attribute->Next()) {
     const std::string name = attribute->Name();
-    if (name.find(':') != std::string::npos || std::find(known.begin(), known.end(), name) != known.end())
-      continue;
+    if (name.find(':') == std::string::npos && std::find(known.begin(), known.end(), name) == known.end())
+      others.push_back(name);
+  }
+  return others;
+}
+
+void UrdfFile::check_attributes(const XmlElement& where, const std::vector<std::string>& known) {
+  for (const std::string& name : other_attributes(where, known)) {
     const std::string close = support::nearest(name, known);
-    diagnostics_.warning(value(where, attribute->Name()),
+    diagnostics_.warning(value(where, name.c_str()),
                          fmt::format("attribute '{}' of <{}> is ignored", shown(name), shown(where.Name())),
                          close.empty() ? "" : fmt::format("did you mean '{}'?", close));
   }

@@ -41,7 +41,10 @@ class UrdfFile {
   /// programs.
   void check_children(const XmlElement& parent, const std::vector<std::string>& known);
 
-  /// Warns of attributes that are not `known`. Those with a prefix (xmlns:xacro) are of other programs.
+  /// The attributes that are not `known`. Those with a prefix (xmlns:xacro) are of other programs.
+  static std::vector<std::string> other_attributes(const XmlElement& element,
+                                                   const std::vector<std::string>& known);
+  /// Warns of those.
   void check_attributes(const XmlElement& element, const std::vector<std::string>& known);
 
   /// The text of an attribute that must be there; nothing after a diagnostic.

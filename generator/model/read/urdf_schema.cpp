@@ -115,17 +115,14 @@ class SchemaCheck {
   void check_attributes(const XmlElement& item) {
     for (const ElementOfUrdf& known : elements()) {
       if (std::string_view(item.Name()) != known.name) continue;
-      for (const auto* attribute = item.FirstAttribute(); attribute; attribute = attribute->Next())
-        check_attribute(item, attribute->Name(), known);
+      for (const std::string& name : UrdfFile::other_attributes(item, known.attributes))
+        tell_attribute(item, name, known);
       for (const auto* e = item.FirstChildElement(); e; e = e->NextSiblingElement()) check_attributes(*e);
     }
   }
 
-  void check_attribute(const XmlElement& item, const std::string& name, const ElementOfUrdf& known) {
-    const std::vector<std::string>& names = known.attributes;
-    if (name.find(':') != std::string::npos || std::find(names.begin(), names.end(), name) != names.end())
-      return;
-    const std::string close = support::nearest(name, names);
+  void tell_attribute(const XmlElement& item, const std::string& name, const ElementOfUrdf& known) {
+    const std::string close = support::nearest(name, known.attributes);
     if (close.empty() && !known.moves) return;
     ignored_.add(file_.value(item, name.c_str()),
                  fmt::format("attribute '{}' of <{}>", shown(name), shown(item.Name())),
