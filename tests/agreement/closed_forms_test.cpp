@@ -307,7 +307,7 @@ double natural_spline(const Eigen::VectorXd& values, double at) {
     matrix.block<1, 3>(i, i - 1) << 1, 4, 1;
     right[i] = 6 * (values[i - 1] - 2 * values[i] + values[i + 1]);
   }
-  const Eigen::VectorXd curvature = matrix.fullPivLu().solve(right);
+  const Eigen::VectorXd curvature = reference::solved_by_lu<double>(matrix, right);
   const Eigen::Index k = std::clamp(static_cast<Eigen::Index>(at), Eigen::Index(0), n - 2);
   const double t = at - static_cast<double>(k), s = 1 - t;
   return s * values[k] + t * values[k + 1] +

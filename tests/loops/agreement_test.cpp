@@ -53,8 +53,8 @@ VectorL schur_values(const MatrixL& G, const MatrixL& M, const loops::LoopPlan& 
   MatrixL scaled = G;
   for (Eigen::Index r = 0; r < G.rows(); ++r)
     scaled.row(r) *= Long(plan.row_length[static_cast<std::size_t>(r)]);
-  const MatrixL S = scaled * M.ldlt().solve(scaled.transpose());
-  return Eigen::JacobiSVD<MatrixL>(S).singularValues();
+  const MatrixL S = scaled * reference::solved_by_ldlt<Long>(M, MatrixL(scaled.transpose()));
+  return reference::singular_values(S);
 }
 
 /// The λ of least norm with lengths as the plan has them: of all with these generalized forces.
@@ -89,7 +89,8 @@ void compare(const model::Mechanism& mechanism, const ClosedPrograms& programs, 
   // Regularised is by a share of what it is at the start.
   const Long condition = std::max(sigma[0], Long(plan.closing_regularisation) * 1e10L) / smallest;
   const VectorL zdot = programs.accelerations(state, u);
-  const Long scale = expected.zdot.norm() + terms.M.ldlt().solve(expected.loop_forces).norm();
+  const Long scale =
+      expected.zdot.norm() + reference::solved_by_ldlt<Long>(terms.M, expected.loop_forces).norm();
   VectorL reduced = expected.zdot;
   if (plan.is_reduced()) {
     reduced.resize(Eigen::Index(plan.independent.size()));

@@ -1,7 +1,6 @@
 // Cams, motions and guides by splines, against splines and equations of motion of the test's own.
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -10,6 +9,7 @@
 #include "dynamics/equations_at.hpp"
 #include "extremes/extreme_scenes.hpp"
 #include "loops/closed_programs.hpp"
+#include "reference/decompositions.hpp"
 
 namespace jourdain::tests {
 namespace {
@@ -38,7 +38,7 @@ class Spline {
     A(n - 1, n - 1) = 1;
     if (is_periodic) A(n - 1, 0) = -1;
     if (!is_periodic) A(0, 0) = 1;
-    curvature_ = A.fullPivLu().solve(b);
+    curvature_ = reference::solved_by_lu<double>(A, b);
   }
 
   struct Place {

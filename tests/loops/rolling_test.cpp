@@ -15,6 +15,7 @@
 #include "properties/consistent_state.hpp"
 #include "properties/random.hpp"
 #include "reference/descriptor.hpp"
+#include "studies/spectra.hpp"
 
 namespace jourdain::tests {
 namespace {
@@ -54,7 +55,7 @@ Long acceleration(const ClosedPrograms& programs, const VectorL& zdot, const std
 }
 
 std::vector<Complex> eigenvalues(const Eigen::MatrixXd& A) {
-  const auto values = Eigen::EigenSolver<Eigen::MatrixXd>(A, false).eigenvalues().eval();
+  const Eigen::VectorXcd values = studies::spectrum(A).values;
   return {values.begin(), values.end()};
 }
 

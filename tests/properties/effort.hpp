@@ -14,13 +14,13 @@ inline bool draws_all_cases() {
   return asked != nullptr && std::string_view(asked) == "all";
 }
 
-/// Of `all` cases those that a test draws: a quarter, or all where draws_all_cases(); under the sanitizers, which look
+/// Of `all` cases those that a test draws: a sixth, or all where draws_all_cases(); under the sanitizers, which look
 /// for other errors and are slow, a twentieth. At least one.
 inline std::uint64_t cases(std::uint64_t all) {
 #ifdef JOURDAIN_SANITIZED
   return (all + 19) / 20;
 #else
-  return draws_all_cases() ? all : (all + 3) / 4;
+  return draws_all_cases() ? all : (all + 5) / 6;
 #endif
 }
 

@@ -63,7 +63,7 @@ std::optional<std::string> UrdfFile::required(const XmlElement& where, const cha
 
 std::optional<std::string> UrdfFile::name(const XmlElement& where) {
   constexpr int kLongest = 100;
-  const std::optional<std::string> text = required(where, "name");
+  std::optional<std::string> text = required(where, "name");
   if (!text) return {};
   int length = 0;
   bool printable = true;
