@@ -43,6 +43,11 @@ enum class OutputKind { kNone, kCsv, kHdf5 };
 /// Nothing after a message where the ending is of neither.
 std::optional<OutputKind> output_kind(const std::string& output) {
   if (output.empty()) return OutputKind::kNone;
+  if (output == "-") {
+    fmt::print(stderr,
+               "error: --output -: the name of a file is expected; standard output has the statistics\n");
+    return {};
+  }
   if (is_ensemble_file(output)) return OutputKind::kHdf5;
   const std::string ending = std::filesystem::path(output).extension().string();
   if (ending.empty() || ending == ".csv") return OutputKind::kCsv;
@@ -111,6 +116,14 @@ int run(EnsembleArguments arguments) {
   const Signals signals(model->loaded, compiled.facts.outputs);
   const auto spreads = read_spreads(arguments.spreads, *model, compiled, signals, arguments.choices.inputs);
   if (!spreads) return kUsage;
+  for (const Spread& spread : *spreads) {
+    if (spread.of != Spread::Of::kParameter) continue;
+    const std::string uneven =
+        check_drawn_sampling(model->loaded.mechanism, model->parameters, spread.entry, spread.width);
+    if (uneven.empty()) continue;
+    fmt::print(stderr, "error: --spread: {}\n", uneven);
+    return kUsage;
+  }
   if (!is_sound_where_drawn(*model, arguments.run.model.path, *spreads, arguments.choices.seed,
                             arguments.states))
     return kModelWrong;

@@ -38,4 +38,17 @@ std::string check_sampling(const model::Mechanism& mechanism, const std::vector<
   return "";
 }
 
+std::string check_drawn_sampling(const model::Mechanism& mechanism, const std::vector<double>& parameters,
+                                 std::size_t entry, double width) {
+  std::vector<double> drawn = parameters;
+  drawn[entry] += width;
+  for (const model::StateVariable& state : mechanism.states)
+    if (state.period && state.period->evaluate<double>(parameters) != state.period->evaluate<double>(drawn))
+      return fmt::format(
+          "the period of {} follows from '{}': as it is drawn it is no whole number of steps, and samples "
+          "are not evenly spaced",
+          state.name, mechanism.parameters[entry].name);
+  return "";
+}
+
 }  // namespace jourdain::commands

@@ -42,9 +42,11 @@ class Parser : public ExpressionDimensions {
     if (text_[begin] == ')') fail(begin, 1, "')' without '('");
     const bool operand = is_digit(text_[begin]) || starts_name(text_[begin]) || text_[begin] == '(';
     const bool compares = text_[begin] == '<' || text_[begin] == '>';
+    const bool reciprocal = text_.substr(begin).starts_with("1/");
     fail(begin, operand ? 1 : character(begin),
          fmt::format("expected an operator, found '{}'", rest_of_word(begin)),
-         operand    ? "a product needs '*'"
+         reciprocal ? "a product needs '*'; the unit 1/m is written m^-1"
+         : operand  ? "a product needs '*'"
          : compares ? "numbers are compared in if(a < b, x, y)"
                     : "");
   }

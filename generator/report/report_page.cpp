@@ -235,13 +235,15 @@ struct Section {
 std::string explained(const std::string& text) { return "<p class=\"soft\">" + text + "</p>\n"; }
 
 Section work_section(const jourdain_model_table& table, const Study& study) {
-  return {
-      "Error against run time",
-      explained("Each row is a method, each column from the sixth on a length of the step; the entries are "
-                "its largest position errors (rad, m). Halving the step divides the error by about 2 to the "
-                "power of the order. Blue: no other entry is both faster and more accurate.") +
-          errors_table(table, study),
-      {work_precision_plot(table, study)}};
+  return {"Error against run time",
+          explained(fmt::format(
+              "Each row is a method, each column from the sixth on a length of the step; the entries are "
+              "its largest position errors (rad, m) after a step; where steps are shorter than {} these are "
+              "compared that often. Halving the step divides the error by about 2 to the "
+              "power of the order. Blue: no other entry is both faster and more accurate.",
+              studies::time_text(study.reference.interval))) +
+              errors_table(table, study),
+          {work_precision_plot(table, study)}};
 }
 
 Section sources_section(const jourdain_model_table& table, const Study& study) {

@@ -18,7 +18,8 @@ struct Question {
 struct Advice {
   std::size_t method = 0;
   double h = 0;
-  ErrorNorms error;  ///< largest along the way, of the run that confirms it
+  ErrorNorms error;     ///< largest along the way, of the run that confirms it
+  double compared = 0;  ///< every so many s: after each step, where a reference can be had there
   std::optional<ErrorNorms>
       error_held;          ///< of the same with each step's inputs held from its begin; none where that fails
   double run_time = 0;     ///< s per simulated second, measured with it

@@ -55,6 +55,7 @@ struct Course {
   std::vector<double> times;  ///< of those compared, without the start
 
   double end() const { return times.back(); }
+  double compared() const { return static_cast<double>(stride) * reference.interval; }
   double duration() const { return end() - start.t; }
 };
 
@@ -105,10 +106,10 @@ Alternative at_equal_error(const Course& course, const Kind& kind, long call_lim
   return best;
 }
 
-Alternative of_fixed_step(const Course& course, std::size_t index, double h, double compared,
+Alternative of_fixed_step(const Course& course, std::size_t index, double h, double block,
                           const std::string& name) {
   const jourdain_method& method = course.flow.table().methods[index];
-  const WorkPoint point = measure_errors(course.flow, index, h, compared, course.reference, false);
+  const WorkPoint point = measure_errors(course.flow, index, h, block, course.reference, false);
   const long steps = std::lround(course.duration() / h);
   return {name,
           {},
@@ -183,24 +184,34 @@ std::optional<std::size_t> find_method(const jourdain_model_table& table, std::s
   return {};
 }
 
-/// The engine's step, or the one next to it of which whole numbers make `compared`.
-double engine_step(double compared) { return compared / std::max(1.0, std::round(compared / kEngineStep)); }
+/// The engine's step, or the one next to it of which whole numbers make `block`.
+double engine_step(double block) { return block / std::max(1.0, std::round(block / kEngineStep)); }
+
+/// Of at most kMostParts equal parts of `block` the shortest, whole numbers of the reference's intervals.
+double part_of(double block, const ReferenceSolution& reference) {
+  constexpr long kMostParts = 32;
+  const long intervals = std::lround(block / reference.interval);
+  long parts = std::min(kMostParts, intervals);
+  while (intervals % parts != 0) --parts;
+  return block / static_cast<double>(parts);
+}
 
 /// All rows without their times.
-Alternatives counted_rows(const Course& course, const Advice& advice, double compared, double seconds,
+Alternatives counted_rows(const Course& course, const Advice& advice, double block, double seconds,
                           const Progress& progress) {
   const jourdain_model_table& table = course.flow.table();
   const auto limit = static_cast<long>(seconds / call_time(table));
-  Alternatives study{course.error, compared, {}};
+  Alternatives study{course.error, course.compared(), {}};
   study.rows.push_back(
-      of_fixed_step(course, advice.method, advice.h, compared, table.methods[advice.method].name));
+      of_fixed_step(course, advice.method, advice.h, block, table.methods[advice.method].name));
+  study.rows.back().error = advice.error;
+  study.rows.back().keeps = advice.error.position <= course.error;
   for (std::size_t i = 0; i < std::size(kKinds); ++i) {
     progress("other integrators", double(i) / double(std::size(kKinds) + 1));
     study.rows.push_back(at_equal_error(course, kKinds[i], limit));
   }
   if (const auto engine = find_method(table, kEngineMethod))
-    study.rows.push_back(
-        of_fixed_step(course, *engine, engine_step(compared), compared, "semi-implicit Euler"));
+    study.rows.push_back(of_fixed_step(course, *engine, engine_step(block), block, "semi-implicit Euler"));
   return study;
 }
 
@@ -210,9 +221,10 @@ Alternatives study_alternatives(const Flow<double>& flow, const Advice& advice,
                                 const std::optional<double>& tolerance, double sampling,
                                 const ReferenceSolution& reference, double seconds,
                                 const Progress& progress) {
-  const double compared = std::max(advice.h, sampling);
+  const double block = std::max(advice.h, sampling);
+  const double compared = flow.has_loops() ? block : part_of(block, reference);
   const Course course = course_of(flow, reference, tolerance.value_or(advice.error.position), compared);
-  Alternatives study = counted_rows(course, advice, compared, seconds, progress);
+  Alternatives study = counted_rows(course, advice, block, seconds, progress);
   const std::vector<double> times = flow.has_loops() ? course.times : std::vector{course.end()};
   const std::size_t engine = find_method(flow.table(), kEngineMethod).value_or(0);
   std::vector<Contender> contenders;

@@ -15,6 +15,8 @@ namespace {
 constexpr double kTolerance = 1e-23, kLooserTolerance = 1e-20;
 constexpr double kCvodeTolerance = 1e-13, kLooserCvodeTolerance = 1e-12;
 constexpr std::size_t kFewestSamples = 4;
+/// Of CVODE for one of the study: where loops are closed it starts anew at each, and errs by its tolerance.
+constexpr std::size_t kFinerSamples = 32, kFinerSamplesOfLoops = 8;
 constexpr long kMostEvaluations = 50000000;     ///< where the user insists
 constexpr double kEvaluationsPerInterval = 45;  ///< of extrapolation to kTolerance, about
 
@@ -113,16 +115,16 @@ std::optional<ReferenceSolution> by_extrapolation(const Flow<LongReal>& flow, do
 
 std::optional<ReferenceSolution> by_cvode(const Flow<double>& flow, double sampling, long wanted,
                                           const Progress& progress) {
-  constexpr std::size_t kFinerSamples = 8;
-  const double interval = sampling / kFinerSamples;
-  const long count = wanted * static_cast<long>(kFinerSamples);
+  const std::size_t finer = flow.has_loops() ? kFinerSamplesOfLoops : kFinerSamples;
+  const double interval = sampling / finer;
+  const long count = wanted * static_cast<long>(finer);
   progress("reference by CVODE", 0);
   auto points = solved_by_cvode(flow, flow.start(), interval, count, kCvodeTolerance);
   auto looser = solved_by_cvode(flow, flow.start(), interval, count, kLooserCvodeTolerance);
   if (!points || !looser) return {};
-  const std::size_t samples = samples_together(*points, kFinerSamples, *looser, kFinerSamples);
+  const std::size_t samples = samples_together(*points, finer, *looser, finer);
   if (samples < kFewestSamples) return {};
-  points->resize(1 + samples * kFinerSamples);
+  points->resize(1 + samples * finer);
   looser->resize(points->size());
   ReferenceSolution solution;
   solution.method = "CVODE (Adams) in double";
@@ -135,6 +137,29 @@ std::optional<ReferenceSolution> by_cvode(const Flow<double>& flow, double sampl
 }
 
 }  // namespace
+
+std::optional<ReferenceSolution> reference_at_steps(const Flow<double>& flow,
+                                                    const ReferenceSolution& reference, double sampling,
+                                                    long steps) {
+  const auto stride = static_cast<std::size_t>(std::lround(sampling / reference.interval));
+  const std::size_t samples = (reference.points.size() - 1) / stride;
+  const long count = static_cast<long>(samples) * steps;
+  if (count > kMostPoints) return {};
+  ReferenceSolution solution;
+  solution.method = "CVODE (Adams) in double";
+  solution.interval = sampling / static_cast<double>(steps);
+  auto points = solved_by_cvode(flow, flow.start(), solution.interval, count, kCvodeTolerance);
+  if (!points) return {};
+  for (std::size_t k = 0; k <= samples; ++k) {
+    const Point<double>&own = (*points)[k * static_cast<std::size_t>(steps)],
+          &other = reference.points[k * stride];
+    solution.error = std::max(solution.error, difference(own, other));
+    for (std::size_t i = 0; i < flow.position_count(); ++i)
+      solution.position_error = std::max(solution.position_error, std::fabs(own.x[i] - other.x[i]));
+  }
+  solution.points = std::move(*points);
+  return solution;
+}
 
 ReferenceSolution solve_reference(const Flow<double>& flow, const Flow<LongReal>* long_flow,
                                   ReferenceKind kind, double interval, long count, int halvings,

@@ -33,10 +33,18 @@ inline constexpr double kParted = 1e-6;
 
 /// By extrapolation on `long_flow` where there is one and its cost allows, otherwise by CVODE on `flow`. `interval`
 /// times `count` is the duration (s); the times between are kept as well, by extrapolation in intervals of `interval`
-/// / 2^k, as fine as `seconds` of work allow, by CVODE of an eighth. Throws EnvironmentError where no method
+/// / 2^k, as fine as `seconds` of work allow, by CVODE of a 32nd, with loops of an eighth. Throws EnvironmentError where no method
 /// gets through.
 ReferenceSolution solve_reference(const Flow<double>& flow, const Flow<LongReal>* long_flow,
                                   ReferenceKind kind, double interval, long count, int halvings,
                                   double seconds, const Progress& progress);
+
+/// The same solution at `steps` points for each `sampling` (s), a multiple of the reference's interval, by CVODE.
+/// `position_error` is what it differs from `reference` by where both have points. Nothing where CVODE gives up, or
+/// where these are more than kMostPoints.
+std::optional<ReferenceSolution> reference_at_steps(const Flow<double>& flow,
+                                                    const ReferenceSolution& reference, double sampling,
+                                                    long steps);
+inline constexpr long kMostPoints = 400000;
 
 }  // namespace jourdain::studies

@@ -45,12 +45,13 @@ std::vector<std::string> alternatives_remarks(const jourdain_model_table& table,
   const Alternatives& a = study.alternatives;
   if (a.rows.empty()) return {};
   std::vector<std::string> list = {
-      fmt::format("the first row is the recommended step. All keep within {:.2g} (rad, m), compared every {} "
-                  "over {}: "
-                  "adaptive integrators at the loosest relative tolerance (thirds of decades; absolute a "
-                  "tenth of it) "
-                  "that does. They choose their steps freely and are interpolated",
-                  a.error, time_text(a.compared), time_text(study.judged)),
+      fmt::format(
+          "the first row is the recommended step. All keep within {:.2g} (rad, m), the others compared every "
+          "{} over {}: "
+          "adaptive integrators at the loosest relative tolerance (thirds of decades; absolute a "
+          "tenth of it) "
+          "that does. They choose their steps freely and are interpolated",
+          a.error, time_text(a.compared), time_text(study.judged)),
       "steps and calls of the right-hand side are exact. Worst step: calls in one single step, with rejected "
       "attempts, Jacobians by differences and the start; real time must allow for it in every step. Run time "
       "per "

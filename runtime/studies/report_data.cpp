@@ -268,6 +268,7 @@ Json advice_json(const jourdain_model_table& table, const Study& study) {
   result["method"] = table.methods[a.method].name;
   result["step_s"] = a.h;
   result["largest_error"] = norms(a.error);
+  result["compared_every_s"] = a.compared;
   result["inputs_held"] = study.options.hold_inputs;
   if (a.error_held) result["largest_error_with_inputs_held"] = norms(*a.error_held);
   result["step_time_s"] = a.step_time;
@@ -301,7 +302,10 @@ std::string report_json(const ReportHead& head, const jourdain_model_table& tabl
                        {"inputs", head.scenario},
                        {"duration_s", study.options.duration},
                        {"judged_s", study.judged},
-                       {"reference", {{"method", study.reference.method}, {"error", study.reference.error}}},
+                       {"reference",
+                        {{"method", study.reference.method},
+                         {"error", study.reference.error},
+                         {"interval_s", study.reference.interval}}},
                        {"divergence",
                         {{"growth", number(study.divergence.growth.back())},
                          {"exponent_per_s", number(study.divergence.exponent)}}},

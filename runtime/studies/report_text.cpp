@@ -45,7 +45,10 @@ std::string errors_block(const jourdain_model_table& table, const Study& study, 
 
 std::string errors_table(const jourdain_model_table& table, const Study& study) {
   constexpr std::size_t kColumns = 9;
-  std::string text = "\n  largest position error along the way (rad, m); * on the Pareto front\n";
+  std::string text = fmt::format(
+      "\n  largest position error along the way (rad, m), compared after each step, where steps are shorter "
+      "every {};\n  * on the Pareto front\n",
+      time_text(study.reference.interval));
   for (std::size_t first = 0; first < study.steps.size(); first += kColumns)
     text += errors_block(table, study, first, std::min(first + kColumns, study.steps.size()));
   return text;
@@ -94,9 +97,10 @@ std::string forms_table(const Study& study) {
       "references,\n"
       "  whose times say nothing of emitted code, and \"emitted\" where the scene can be written as free "
       "bodies\n"
-      "  whose joints are closed by multipliers, with one projection a step\n"
+      "  whose joints are closed by multipliers, with one projection a step; compared every {}\n"
       "  {:<28} {:>7} {:>8} {:>9} {:>9} {:>9} {:>9}\n",
-      "form", "states", "unknowns", "h", "error, m", "drift", "us a step");
+      time_text(study.options.longest_step), "form", "states", "unknowns", "h", "error, m", "drift",
+      "us a step");
   for (const FormCurve& curve : study.forms) {
     std::vector<FormPoint> points;
     for (const FormPoint& point : curve.points)
@@ -163,11 +167,12 @@ std::string advice_text(const jourdain_model_table& table, const Study& study) {
       is_judged_shorter(study) ? fmt::format(" over {} only", time_text(study.judged)) : "";
   return fmt::format(
       "within {}{}: {}_step with h = {}; a run confirms it{}: position error {:.2g}, velocity error {:.2g}, "
-      "{} "
-      "a step, "
+      "compared {}, {} a step, "
       "{:.3g} times faster than real time{}{}",
       asked, over, table.methods[a.method].name, time_text(a.h), a.confirmed ? "" : " NOT", a.error.position,
-      a.error.velocity, time_text(a.step_time), 1 / a.run_time, inputs, remark);
+      a.error.velocity,
+      a.compared < 1.001 * a.h ? "after each step" : fmt::format("every {}", time_text(a.compared)),
+      time_text(a.step_time), 1 / a.run_time, inputs, remark);
 }
 
 bool is_judged_shorter(const Study& study) { return study.judged < 0.999 * study.options.duration; }

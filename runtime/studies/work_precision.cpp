@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 
 #include "reference/decompositions.hpp"
 #include "studies/work.hpp"
@@ -118,8 +119,9 @@ WorkPoint measure_errors(const Flow<double>& flow, std::size_t index, double h, 
                          const ReferenceSolution& reference, bool conserves_energy) {
   const jourdain_method& method = flow.table().methods[index];
   const std::size_t positions = flow.position_count();
-  const auto stride = static_cast<std::size_t>(std::lround(sampling / reference.interval));
-  const long steps = std::lround(sampling / h);
+  const long steps_of_all = std::lround(sampling / h), intervals = std::lround(sampling / reference.interval);
+  const long meetings = std::gcd(steps_of_all, intervals), steps = steps_of_all / meetings;
+  const auto stride = static_cast<std::size_t>(intervals / meetings);
   WorkPoint result;
   result.method = index;
   result.h = h;

@@ -43,8 +43,8 @@ ErrorNorms errors_at(const std::vector<double>& x, const std::vector<double>& re
 /// Least and quartiles of some samples.
 StepTime spread_of(std::vector<double> samples);
 
-/// Runs steps of length h and compares with the reference at every multiple of `sampling` (s), a multiple of h
-/// and of the reference's interval.
+/// Runs steps of length h and compares with the reference wherever they meet. `sampling` (s) is a multiple of h and of
+/// the reference's interval.
 WorkPoint measure_errors(const Flow<double>& flow, std::size_t method, double h, double sampling,
                          const ReferenceSolution& reference, bool conserves_energy);
 

@@ -179,6 +179,7 @@ TEST_F(EnsembleCommand, RefusesWhatItCannotDraw) {
   expect(run({"--shard", "1/2000"}), 2, "with a state for each of 1000 states");
   for (const char* file : {"rows.hdf5", "rows.H5", "rows.txt", "all.h5.old"})
     expect(run({"--output", file}), 2, ".csv or .h5 (HDF5) is expected, or no ending, for CSV");
+  expect(run({"--output", "-"}), 2, "the name of a file is expected");
   expect(run({"--inputs", "no.csv"}), 2, "--constant-input and what is spread");
   expect(jourdain({"ensemble", "models/crane.toml", "--spread", "suspension_qw=normal(0.1)"}), 2,
          "it is an entry of a quaternion");

@@ -50,6 +50,8 @@ TEST_F(MemoriesOnTheCommandLine, AreSteppedInEnsembles) {
          "torque_1");
   expect(run("ensemble", {"--states", "20", "--duration", "0.1", "--step", "2e-3"}), 2,
          "2.5 steps of 0.002 s");
+  expect(run("ensemble", {"--states", "20", "--duration", "0.1", "--spread", "sampling=normal(1%)"}), 2,
+         "the period of last_reading_timer follows from 'sampling'");
 }
 
 /// At the ends of whole periods runs agree that take the same samples.

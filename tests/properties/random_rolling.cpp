@@ -22,8 +22,8 @@ using model::Expression;
 using model::LoopType;
 using model::Variable;
 
-constexpr int kMaximumDraws = 200;
-constexpr long double kFastest = 1e8L;  // rad/s^2, m/s^2
+constexpr int kMostDrawsOfRolling = 200;
+constexpr long double kFastestRolling = 1e8L;  // rad/s^2, m/s^2
 
 class Constraints {
   using Kind = Variable::Kind;
@@ -126,7 +126,7 @@ bool is_good(const model::Mechanism& mechanism, std::uint64_t seed) {
     // Where a gimbal's angles are no measure of its turn the descriptor form has no accelerations.
     const reference::VectorX<long double> u = reference::VectorX<long double>::Zero(
         Eigen::Index(model::lay_out_coordinates(mechanism).input_count()));
-    if (!(form.solve(state.t, state.y, state.z, u).zdot.norm() < kFastest)) return false;
+    if (!(form.solve(state.t, state.y, state.z, u).zdot.norm() < kFastestRolling)) return false;
     if (rank && *rank != freedom.rank) return false;
     rank = freedom.rank;
     if (freedom.weakest < kWeakestConstraint || freedom.motions.cols() < 1) return false;
@@ -139,7 +139,7 @@ bool is_good(const model::Mechanism& mechanism, std::uint64_t seed) {
 model::Mechanism random_rolling(std::uint64_t seed) {
   static constexpr LoopType kTypes[] = {LoopType::kRollingWheel, LoopType::kVelocity, LoopType::kRollingBall,
                                         LoopType::kKnifeEdge, LoopType::kRollingEllipsoid};
-  for (std::uint64_t draw = 0; draw < kMaximumDraws; ++draw) {
+  for (std::uint64_t draw = 0; draw < kMostDrawsOfRolling; ++draw) {
     const std::uint64_t stream = seed + 100000 * draw;
     Random random(stream ^ 0x524f4c4cu);
     model::Mechanism mechanism = seed % 3 == 2 ? random_loops(stream) : random_scene(stream);

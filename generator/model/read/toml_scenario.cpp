@@ -43,7 +43,7 @@ bool is_actuated(const Mechanism& mechanism, const CoordinateLayout& layout, std
   return false;
 }
 
-std::vector<Expression> read_follow(const TomlTable& table, const Mechanism& mechanism,
+std::vector<Expression> read_follow(TomlFile& file, const TomlTable& table, const Mechanism& mechanism,
                                     const CoordinateLayout& layout) {
   if (!layout.quaternions.empty()) {
     table.error("", "a mechanism with quaternions cannot follow a motion", "drive it with [input]");
@@ -65,7 +65,13 @@ std::vector<Expression> read_follow(const TomlTable& table, const Mechanism& mec
       table.error(name, fmt::format("coordinate '{}' has no actuator", name),
                   "inverse dynamics needs one for each");
   }
-  return expressions(table, layout.position_names, needs_of_positions(mechanism, layout));
+  const std::vector<Needed> needs = needs_of_positions(mechanism, layout);
+  const std::size_t errors = file.error_count();
+  std::vector<Expression> motions = expressions(table, layout.position_names, needs);
+  for (std::size_t i = 0; i < needs.size() && file.error_count() == errors; ++i)
+    refuse_kinks(file, table, layout.position_names[i],
+                 [&] { return table.function(layout.position_names[i], needs[i], time_scope()); });
+  return motions;
 }
 
 Scenario read_root(TomlFile& file, const toml::table& root, const Mechanism& mechanism) {
@@ -82,7 +88,7 @@ Scenario read_root(TomlFile& file, const toml::table& root, const Mechanism& mec
   }
   if (const toml::table* section = top.has("follow") ? top.table("follow") : nullptr) {
     const TomlTable table(file, *section, "[follow]", top.where("follow"), layout.position_names);
-    scenario.follow = read_follow(table, mechanism, layout);
+    scenario.follow = read_follow(file, table, mechanism, layout);
   }
   return scenario;
 }

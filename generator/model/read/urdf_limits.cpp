@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <string_view>
 
 namespace jourdain::model {
@@ -13,7 +14,8 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-std::optional<double> finite_number(const char* attribute) {
+/// Infinite where it is too large for a double.
+std::optional<double> number(const char* attribute) {
   constexpr std::string_view kSpaces = " \t\r\n";
   std::string_view text = attribute ? attribute : "";
   text.remove_prefix(std::min(text.find_first_not_of(kSpaces), text.size()));
@@ -21,8 +23,13 @@ std::optional<double> finite_number(const char* attribute) {
   if (text.starts_with('+')) text.remove_prefix(1);
   double value = 0;
   const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool is_number = error == std::errc() && stop == text.data() + text.size();
-  return is_number && std::isfinite(value) ? std::optional(value) : std::nullopt;
+  if (error == std::errc::invalid_argument || stop != text.data() + text.size()) return {};
+  return error == std::errc() ? value : std::numeric_limits<double>::infinity();
+}
+
+std::optional<double> finite_number(const char* attribute) {
+  const std::optional<double> value = number(attribute);
+  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 }  // namespace
@@ -34,6 +41,13 @@ Limits limits_of(const XMLElement& limit, bool continuous) {
   limits.lower = lower ? finite_number(lower) : 0.0;
   limits.upper = upper ? finite_number(upper) : 0.0;
   return limits;
+}
+
+std::vector<const char*> limits_without_number(const XMLElement& limit) {
+  std::vector<const char*> names;
+  for (const char* name : {"lower", "upper", "velocity", "effort"})
+    if (const char* text = limit.Attribute(name); text && !number(text)) names.push_back(name);
+  return names;
 }
 
 std::map<std::string, Limits> read_urdf_limits(const std::string& text) {

@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace jourdain::model {
 
@@ -20,6 +21,9 @@ struct Limits {
 /// What a <limit> states; numbers that are none or not finite are left out. Where only one end of the range is written
 /// the other is zero; continuous joints have no range.
 Limits limits_of(const tinyxml2::XMLElement& limit, bool continuous);
+
+/// The attributes that limits_of() would read and whose texts are no numbers.
+std::vector<const char*> limits_without_number(const tinyxml2::XMLElement& limit);
 
 /// The <limit> elements of a URDF text that `read_urdf` accepts, by joint; joints that state none are left
 /// out.

@@ -194,9 +194,16 @@ class UrdfReader {
         first_friction_where_ = file_.value(*dynamics, "friction");
       }
     }
-    if (const XmlElement* limit = element.FirstChildElement("limit"); limit && joint.coordinates.size() == 1)
-      limit_range(limits_of(*limit, element.Attribute("type", "continuous") != nullptr),
-                  joint.coordinates[0]);
+    if (const XmlElement* limit = element.FirstChildElement("limit")) {
+      for (const char* name : limits_without_number(*limit))
+        file_.diagnostics().warning(
+            file_.value(*limit, name),
+            fmt::format("'{}' in the <limit> of joint '{}' is no number", name, shown(joint.name)),
+            "it is left out");
+      if (joint.coordinates.size() == 1)
+        limit_range(limits_of(*limit, element.Attribute("type", "continuous") != nullptr),
+                    joint.coordinates[0]);
+    }
     const XmlElement* mimic = file_.child(element, "mimic");
     return options_.mimic ? mimic : nullptr;
   }
