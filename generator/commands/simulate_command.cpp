@@ -72,7 +72,11 @@ class Simulation {
         table_(flow.table()),
         arguments_(arguments),
         bounds_(flow, flow.start(), conserves_energy),
+        conserves_energy_(conserves_energy),
         guard_(guard) {
+    const studies::Residuals open = flow.residuals(flow.start());
+    state_.open.position = open.position;
+    state_.open.velocity = open.velocity;
     for (const std::size_t i : selection.drawn) state_.drawn.push_back({signals.list()[i], {}});
   }
 
@@ -95,9 +99,9 @@ class Simulation {
       state_.stepping_time += seconds_since(begin);
       done += block;
       state_.end.t = static_cast<double>(done) * arguments_.step;
-      const double energy = row(csv);
-      if (!trouble(state_.end).empty()) find_breach(method, before, memory_before, block);
-      state_.largest_drift = std::max(state_.largest_drift, std::fabs(energy - state_.first_energy));
+      if (block > 1) watch_steps(method, before, memory_before, block - 1);
+      if (!state_.breach) watch(block > 1 ? last_ : before, state_.end);
+      row(csv);
       progress.show("simulating", static_cast<double>(done) / static_cast<double>(steps));
     }
     state_.end_rates = flow_.rates(state_.end.t, state_.end.x);
@@ -111,16 +115,27 @@ class Simulation {
     return out.empty() && guard_ ? guard_->problem(point) : out;
   }
 
-  /// Makes the steps of a block that ended in trouble again, one by one, up to the first one that does.
-  void find_breach(const jourdain_method& method, Point<double> point, studies::Memory memory, long steps) {
-    Point<double> last = point;
-    std::string what;
-    for (long done = 0; done < steps && what.empty(); ++done) {
-      last = point;
+  /// Makes the steps of a block again, one by one: the block as a whole is what is timed.
+  void watch_steps(const jourdain_method& method, Point<double> point, studies::Memory memory, long steps) {
+    last_ = point;
+    for (long done = 0; done < steps && !state_.breach; ++done) {
       flow_.step(method, point, arguments_.step, 1, memory);
-      what = trouble(point);
+      watch(last_, point);
+      last_ = point;
     }
-    state_.breach = {last, point, what, bounds_.breach(point).empty()};
+  }
+
+  /// What a step from `before` led to.
+  void watch(const Point<double>& before, const Point<double>& point) {
+    if (const std::string what = trouble(point); !what.empty())
+      state_.breach = {before, point, what, bounds_.breach(point).empty()};
+    if (conserves_energy_)
+      state_.largest_drift =
+          std::max(state_.largest_drift, std::fabs(flow_.energy(point) - state_.first_energy));
+    if (!flow_.has_loops()) return;
+    const studies::Residuals open = flow_.residuals(point);
+    state_.open.position = std::max(state_.open.position, open.position);
+    state_.open.velocity = std::max(state_.open.velocity, open.velocity);
   }
 
   void header(std::string& csv) const {
@@ -132,9 +147,6 @@ class Simulation {
   /// Total energy, J.
   double row(std::string& csv) {
     const Point<double>& now = state_.end;
-    const studies::Residuals open = flow_.residuals(now);
-    state_.open.position = std::max(state_.open.position, open.position);
-    state_.open.velocity = std::max(state_.open.velocity, open.velocity);
     const std::vector<double> values = signals_.values(flow_, now, with_outputs_);
     csv += fmt::format("{}", now.t);
     for (const std::size_t i : selection_.written) csv += fmt::format(",{}", values[i]);
@@ -152,7 +164,9 @@ class Simulation {
   const jourdain_model_table& table_;
   const SimulateArguments& arguments_;
   RunBounds bounds_;
+  bool conserves_energy_ = false;
   const LoopGuard* guard_;
+  Point<double> last_;  ///< before the last step of a block
   Trajectory state_;
 };
 

@@ -297,6 +297,10 @@ class Parser : public ExpressionDimensions {
   Expression called(const NamedFunction& function, const std::vector<Expression>& arguments,
                     std::size_t begin) const {
     if (function.dimensions == NamedFunction::Dimensions::kRoot) return square_root(arguments[0], begin);
+    const Expression& last = arguments.back();
+    if (function.arguments.ends_with("width") && last.is_constant() && last.constant() == 0)
+      fail(begin, position_ - begin, fmt::format("the width of '{}' is zero: it has a kink", function.name),
+           "abs, sign, min and max say that they have one");
     return finite(function.of(arguments), begin);
   }
 

@@ -84,8 +84,9 @@ std::vector<std::string> stability_remarks(const jourdain_model_table& table, co
   const Stability& s = study.stability;
   std::vector<std::string> list;
   if (s.points.empty()) return list;
-  list.push_back(fmt::format("fastest mode along the trajectory: {} /s at t = {}; it belongs to {}",
-                             mode_text(s.fastest), instant(s.fastest_time), owners_text(s)));
+  list.push_back(
+      fmt::format("fastest mode of {} states along the trajectory: {} /s at t = {}; it belongs to {}",
+                  s.points.size(), mode_text(s.fastest), instant(s.fastest_time), owners_text(s)));
   list.push_back(
       s.damps ? fmt::format("the trajectory's own rate is {:.3g} /s; the fastest decay is {:.3g} times that",
                             s.rate, s.stiffness)

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -163,10 +164,12 @@ TEST_P(Audit, FindsTheErrorsThatTheReportStates) {
       name, claims.size(), worst, claims.back().method, claims.back().h, errors.back(), errors.front());
 }
 
-/// Largest |x − a cos ωt| of a simulation.
-double oscillation_error(const std::string& model, const std::string& method, double h, double a, double w) {
+/// Largest difference of a simulation's first coordinate to `exact`, over 2 s.
+double simulation_error(const std::string& model, const Claim& claim,
+                        const std::function<double(double)>& exact) {
+  const double h = claim.h;
   const auto run = support::run_process(
-      {JOURDAIN_BINARY, "simulate", model, "--method", method, "--step", fmt::format("{:.17g}", h),
+      {JOURDAIN_BINARY, "simulate", model, "--method", claim.method, "--step", fmt::format("{:.17g}", h),
        "--duration", fmt::format("{:.17g}", std::floor(2 / h + 1e-9) * h), "--every", "1", "--output", "-"});
   EXPECT_EQ(run.status, 0) << run.output;
   std::istringstream lines(run.output);
@@ -176,7 +179,7 @@ double oscillation_error(const std::string& model, const std::string& method, do
   while (std::getline(lines, line)) {
     double t = 0, x = 0;
     if (std::sscanf(line.c_str(), "%lf,%lf", &t, &x) != 2) continue;
-    largest = std::max(largest, std::fabs(x - a * std::cos(w * t)));
+    largest = std::max(largest, std::fabs(x - exact(t)));
     ++rows;
   }
   EXPECT_GE(double(rows), 2 / h - 1);
@@ -186,6 +189,7 @@ double oscillation_error(const std::string& model, const std::string& method, do
 /// Of an oscillation that comes round at every multiple of the longest step: its errors are greatest between these.
 TEST(OscillationAudit, FindsTheErrorsThatTheReportStates) {
   constexpr double kAmplitude = 0.01, kFrequency = 2 * M_PI * 125, kAsked = 1e-4;
+  const auto x = [](double t) { return kAmplitude * std::cos(kFrequency * t); };
   const support::TemporaryFolder folder;
   const std::string model = folder.path() + "/oscillator.toml";
   support::write_file(model, R"toml([model]
@@ -211,19 +215,59 @@ initial_position = 0.01
     const json figures = json::parse(support::read_file(folder.path() + "/report/report.json"));
     const Claim advised = recommended(figures);
     EXPECT_NEAR(advised.compared, advised.h, 1e-9 * advised.h);
-    const double confirmed = oscillation_error(model, advised.method, advised.h, kAmplitude, kFrequency);
+    const double confirmed = simulation_error(model, advised, x);
     EXPECT_LE(confirmed, kAsked);
     EXPECT_NEAR(advised.error, confirmed, 1e-3 * confirmed) << advised.method << " " << advised.h;
     std::size_t compared = 0;
     for (const Claim& claim : claims_of(figures)) {
       if (!(claim.error > 1e-9 && claim.error < kAmplitude)) continue;
-      const double error = oscillation_error(model, claim.method, claim.h, kAmplitude, kFrequency);
+      const double error = simulation_error(model, claim, x);
       // Where steps are shorter than the reference's intervals the largest may lie between these.
       EXPECT_NEAR(claim.error, error, (claim.compared < 1.001 * claim.h ? 1e-3 : 0.1) * error)
           << reference << " " << claim.method << " " << claim.h;
       ++compared;
     }
     EXPECT_GE(compared, 6u);
+  }
+}
+
+/// A force that turns round between the nodes of any step of a reference: constant on both sides, where no tolerance of
+/// one step sees it.
+TEST(JumpAudit, FindsTheErrorsThatTheReportStates) {
+  constexpr double kJump = 0.7003, kForce = 3;
+  const support::TemporaryFolder folder;
+  const std::string model = folder.path() + "/turn.toml";
+  support::write_file(model, R"toml([model]
+name = "turn"
+gravity = [0, 0, 0]
+[[body]]
+name = "a"
+mass = 1
+[[joint]]
+name = "x"
+type = "prismatic"
+parent = "world"
+child = "a"
+axis = [1, 0, 0]
+initial_velocity = 1
+[[force]]
+joint = "x"
+value = "if(t < 0.7003, 3, -3)"
+)toml");
+  const auto x = [](double t) {
+    const double after = std::max(0.0, t - kJump);
+    return t + kForce * t * t / 2 - kForce * after * after;
+  };
+  const auto report = support::run_process({JOURDAIN_BINARY, "report", model, "-o", folder.path() + "/report",
+                                            "--tolerance", "2e-4", "--effort", "0.5", "--methods", "rk4"});
+  ASSERT_EQ(report.status, 0) << report.output;
+  const json figures = json::parse(support::read_file(folder.path() + "/report/report.json"));
+  std::vector<Claim> claims = claims_of(figures);
+  claims.push_back(recommended(figures));
+  EXPECT_LE(simulation_error(model, claims.back(), x), 2e-4);
+  for (const Claim& claim : claims) {
+    if (claim.compared > 1.001 * claim.h || !std::isfinite(claim.error)) continue;
+    EXPECT_NEAR(claim.error, simulation_error(model, claim, x), 1e-3 * claim.error) << claim.h;
   }
 }
 

@@ -422,6 +422,21 @@ TEST(Simulate, WritesInputsAndOutputs) {
          "did you mean 'rocker_angle'?");
 }
 
+/// A fast mode that comes round between rows.
+TEST(Simulate, DriftIsThatOfEveryStep) {
+  const support::TemporaryFolder folder;
+  const auto drift = [&](const char* every) {
+    const std::string text =
+        jourdain({"simulate", "models/double_pendulum.toml", "--duration", "2", "--step", "0.01", "--method",
+                  "semi_implicit_euler", "--every", every, "--output", folder.path() + "/p.csv"})
+            .output;
+    const std::size_t at = text.find("drift ");
+    EXPECT_NE(at, std::string::npos) << text;
+    return text.substr(at, text.find('\n', at) - at);
+  };
+  EXPECT_EQ(drift("1"), drift("200"));
+}
+
 TEST(Simulate, StopsWhereARunLeavesAllBounds) {
   const support::TemporaryFolder folder;
   const std::string csv = folder.path() + "/p.csv";
