@@ -75,8 +75,9 @@ bool check_later(const model::Mechanism& mechanism, NumericClosure closure, cons
   if (worst <= allowed) {
     diagnostics.warning(
         loop.where,
-        fmt::format("{} follows from the others but for {:.1g} at t = {:.3g} s: it is left open by that",
-                    in_words(loop), static_cast<double>(worst), static_cast<double>(when)),
+        fmt::format("{} follows from the others but for {:.1g} at t = {:.3g} s, of {} times that were looked "
+                    "at: it is left open by that",
+                    in_words(loop), static_cast<double>(worst), static_cast<double>(when), kSteps),
         "what prescribes positions does not quite agree");
     return true;
   }
