@@ -18,8 +18,9 @@ constexpr std::size_t kFewestSamples = 4;
 /// Two integrators agree within so many times what CVODE's solution is known to, and a little. Where rates jump all
 /// nodes of the extrapolation's step may lie on one side, whatever its tolerance.
 constexpr double kKnown = 100, kLeast = 1e-10;
-/// Of CVODE for one of the study: where loops are closed it starts anew at each, and errs by its tolerance.
-constexpr std::size_t kFinerSamples = 32, kFinerSamplesOfLoops = 8;
+/// Of CVODE for one of the study. It ends a step at each: where these are what limits its steps, two tolerances give
+/// one solution, whose error does not show.
+constexpr std::size_t kFinerSamples = 8;
 constexpr long kMostEvaluations = 50000000;     ///< where the user insists
 constexpr double kEvaluationsPerInterval = 45;  ///< of extrapolation to kTolerance, about
 
@@ -118,16 +119,15 @@ std::optional<ReferenceSolution> by_extrapolation(const Flow<LongReal>& flow, do
 
 std::optional<ReferenceSolution> by_cvode(const Flow<double>& flow, double sampling, long wanted,
                                           const Progress& progress) {
-  const std::size_t finer = flow.has_loops() ? kFinerSamplesOfLoops : kFinerSamples;
-  const double interval = sampling / static_cast<double>(finer);
-  const long count = wanted * static_cast<long>(finer);
+  const double interval = sampling / kFinerSamples;
+  const long count = wanted * static_cast<long>(kFinerSamples);
   progress("reference by CVODE", 0);
   auto points = solved_by_cvode(flow, flow.start(), interval, count, kCvodeTolerance);
   auto looser = solved_by_cvode(flow, flow.start(), interval, count, kLooserCvodeTolerance);
   if (!points || !looser) return {};
-  const std::size_t samples = samples_together(*points, finer, *looser, finer);
+  const std::size_t samples = samples_together(*points, kFinerSamples, *looser, kFinerSamples);
   if (samples < kFewestSamples) return {};
-  points->resize(1 + samples * finer);
+  points->resize(1 + samples * kFinerSamples);
   looser->resize(points->size());
   ReferenceSolution solution;
   solution.method = "CVODE (Adams) in double";

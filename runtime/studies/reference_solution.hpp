@@ -33,8 +33,8 @@ inline constexpr double kParted = 1e-6;
 
 /// By extrapolation on `long_flow` where there is one, its cost allows and CVODE on `flow` agrees; otherwise by CVODE.
 /// `interval` times `count` is the duration (s); the times between are kept as well, by extrapolation in intervals of
-/// `interval` / 2^k, as fine as `seconds` of work allow, by CVODE of a 32nd, with loops of an eighth. Where CVODE does
-/// not agree with what was asked for by `kind`, the error says how far apart they are. Throws EnvironmentError where no
+/// `interval` / 2^k, as fine as `seconds` of work allow, by CVODE of an eighth. Where CVODE does not
+/// agree with what was asked for by `kind`, the error says how far apart they are. Throws EnvironmentError where no
 /// method gets through.
 ReferenceSolution solve_reference(const Flow<double>& flow, const Flow<LongReal>* long_flow,
                                   ReferenceKind kind, double interval, long count, int halvings,

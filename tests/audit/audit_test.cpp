@@ -222,8 +222,9 @@ initial_position = 0.01
     for (const Claim& claim : claims_of(figures)) {
       if (!(claim.error > 1e-9 && claim.error < kAmplitude)) continue;
       const double error = simulation_error(model, claim, x);
-      // Where steps are shorter than the reference's intervals the largest may lie between these.
-      EXPECT_NEAR(claim.error, error, (claim.compared < 1.001 * claim.h ? 1e-3 : 0.1) * error)
+      EXPECT_LE(claim.error, 1.001 * error) << reference << " " << claim.method << " " << claim.h;
+      // Where steps are shorter than the reference's intervals the largest error may lie between these, as stated.
+      EXPECT_GE(claim.error, (claim.compared < 1.001 * claim.h ? 0.999 : 0.7) * error)
           << reference << " " << claim.method << " " << claim.h;
       ++compared;
     }
