@@ -37,8 +37,6 @@ class Signals {
   /// Values at a point, in order; without the outputs where these are not wanted.
   std::vector<double> values(const studies::Flow<double>& flow, const studies::Point<double>& point,
                              bool outputs) const;
-  /// Kinetic and potential energy together, J, of `values`.
-  double total_energy(const std::vector<double>& values) const { return values[state_ + 2]; }
 
  private:
   void tell_apart();

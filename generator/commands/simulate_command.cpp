@@ -74,9 +74,8 @@ class Simulation {
         bounds_(flow, flow.start(), conserves_energy),
         conserves_energy_(conserves_energy),
         guard_(guard) {
-    const studies::Residuals open = flow.residuals(flow.start());
-    state_.open.position = open.position;
-    state_.open.velocity = open.velocity;
+    state_.open = flow.residuals(flow.start());
+    state_.first_energy = flow.energy(flow.start());
     for (const std::size_t i : selection.drawn) state_.drawn.push_back({signals.list()[i], {}});
   }
 
@@ -88,7 +87,7 @@ class Simulation {
     studies::Memory memory = flow_.fresh_memory(method);
     state_.end = flow_.start();
     header(csv);
-    state_.first_energy = row(csv);
+    row(csv);
     ProgressBar progress;
     for (long done = 0; done < steps && !state_.breach;) {
       const long block = std::min(arguments_.every, steps - done);
@@ -144,8 +143,7 @@ class Simulation {
     csv += "\n";
   }
 
-  /// Total energy, J.
-  double row(std::string& csv) {
+  void row(std::string& csv) {
     const Point<double>& now = state_.end;
     const std::vector<double> values = signals_.values(flow_, now, with_outputs_);
     csv += fmt::format("{}", now.t);
@@ -154,7 +152,6 @@ class Simulation {
     if (!state_.drawn.empty()) state_.times.push_back(now.t);
     for (std::size_t k = 0; k < state_.drawn.size(); ++k)
       state_.drawn[k].values.push_back(values[selection_.drawn[k]]);
-    return signals_.total_energy(values);
   }
 
   const Flow<double>& flow_;

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kTolerance = 1e-23, kLooserTolerance = 1e-20;
 constexpr double kCvodeTolerance = 1e-13, kLooserCvodeTolerance = 1e-12;
+constexpr const char* kByCvode = "CVODE (Adams) in double";
 constexpr std::size_t kFewestSamples = 4;
 /// Two integrators agree within so many times what CVODE's solution is known to, and a little. Where rates jump all
 /// nodes of the extrapolation's step may lie on one side, whatever its tolerance.
@@ -33,23 +34,24 @@ double difference(const Point<Real>& a, const Point<Real>& b) {
   return largest;
 }
 
-/// The same over whole solutions; `a` has `stride` points for one of `b`.
-template <class Real>
-double difference(const std::vector<Point<Real>>& a, const std::vector<Point<Real>>& b, std::size_t stride) {
-  double largest = 0;
-  for (std::size_t k = 0; k < b.size(); ++k) largest = std::max(largest, difference(a[k * stride], b[k]));
-  return largest;
-}
+/// Of two solutions at the times that both have.
+struct Parted {
+  double largest = 0;   ///< of an entry, over 1 + |x|
+  double position = 0;  ///< rad or m
+};
 
-/// Largest difference of one of the first `positions` entries; `a` has `stride` points for one of `b`.
+/// `a` and `b` have so many points for one that both have; the first `positions` entries are those.
 template <class Real>
-double position_difference(const std::vector<Point<Real>>& a, const std::vector<Point<Real>>& b,
-                           std::size_t stride, std::size_t positions) {
-  double largest = 0;
-  for (std::size_t k = 0; k < b.size(); ++k)
+Parted parted(const std::vector<Point<Real>>& a, std::size_t of_a, const std::vector<Point<Real>>& b,
+              std::size_t of_b, std::size_t positions) {
+  Parted result;
+  for (std::size_t k = 0; k * of_a < a.size() && k * of_b < b.size(); ++k) {
+    const Point<Real>&own = a[k * of_a], &other = b[k * of_b];
+    result.largest = std::max(result.largest, difference(own, other));
     for (std::size_t i = 0; i < positions; ++i)
-      largest = std::max(largest, std::fabs(double(a[k * stride].x[i] - b[k].x[i])));
-  return largest;
+      result.position = std::max(result.position, std::fabs(double(own.x[i] - other.x[i])));
+  }
+  return result;
 }
 
 /// How many samples two solutions have together before they part; `a` and `b` have so many points for a sample.
@@ -104,8 +106,9 @@ std::optional<ReferenceSolution> by_extrapolation(const Flow<LongReal>& flow, do
   solution.method = "Gragg-Bulirsch-Stoer in 50 digits";
   solution.interval = std::ldexp(interval, -level);
   const std::size_t stride = std::size_t(1) << (level - looser_level);
-  solution.error = difference(*exact, *looser, stride);
-  solution.position_error = position_difference(*exact, *looser, stride, flow.position_count());
+  const Parted apart = parted(*exact, stride, *looser, 1, flow.position_count());
+  solution.error = apart.largest;
+  solution.position_error = apart.position;
   for (const Point<LongReal>& point : *exact) {
     Point<double>& rounded = solution.points.emplace_back();
     rounded.t = double(point.t);
@@ -130,33 +133,23 @@ std::optional<ReferenceSolution> by_cvode(const Flow<double>& flow, double sampl
   points->resize(1 + samples * kFinerSamples);
   looser->resize(points->size());
   ReferenceSolution solution;
-  solution.method = "CVODE (Adams) in double";
+  solution.method = kByCvode;
   solution.interval = interval;
-  solution.error = difference(*points, *looser, 1);
-  solution.position_error = position_difference(*points, *looser, 1, flow.position_count());
+  const Parted apart = parted(*points, 1, *looser, 1, flow.position_count());
+  solution.error = apart.largest;
+  solution.position_error = apart.position;
   solution.open = residuals(flow, *points);
   solution.points = std::move(*points);
   return solution;
 }
 
-/// Of two solutions at the samples that both have.
-struct Parted {
-  double largest = 0;   ///< of an entry, over 1 + |x|
-  double position = 0;  ///< rad or m
-};
-
+/// At the samples that both have.
 Parted parted(const ReferenceSolution& a, const ReferenceSolution& b, double sampling,
               std::size_t positions) {
-  const auto of_a = static_cast<std::size_t>(std::lround(sampling / a.interval)),
-             of_b = static_cast<std::size_t>(std::lround(sampling / b.interval));
-  Parted result;
-  for (std::size_t k = 0; k * of_a < a.points.size() && k * of_b < b.points.size(); ++k) {
-    const Point<double>&own = a.points[k * of_a], &other = b.points[k * of_b];
-    result.largest = std::max(result.largest, difference(own, other));
-    for (std::size_t i = 0; i < positions; ++i)
-      result.position = std::max(result.position, std::fabs(own.x[i] - other.x[i]));
-  }
-  return result;
+  const auto points = [sampling](const ReferenceSolution& solution) {
+    return static_cast<std::size_t>(std::lround(sampling / solution.interval));
+  };
+  return parted(a.points, points(a), b.points, points(b), positions);
 }
 
 }  // namespace
@@ -169,7 +162,7 @@ std::optional<ReferenceSolution> reference_at_steps(const Flow<double>& flow,
   const long count = static_cast<long>(samples) * steps;
   if (count > kMostPoints) return {};
   ReferenceSolution solution;
-  solution.method = "CVODE (Adams) in double";
+  solution.method = kByCvode;
   solution.interval = sampling / static_cast<double>(steps);
   auto points = solved_by_cvode(flow, flow.start(), solution.interval, count, kCvodeTolerance);
   if (!points) return {};

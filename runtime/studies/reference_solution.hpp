@@ -40,12 +40,14 @@ ReferenceSolution solve_reference(const Flow<double>& flow, const Flow<LongReal>
                                   ReferenceKind kind, double interval, long count, int halvings,
                                   double seconds, const Progress& progress);
 
+/// Of a solution at a method's steps.
+inline constexpr long kMostPoints = 400000;
+
 /// The same solution at `steps` points for each `sampling` (s), a multiple of the reference's interval, by CVODE.
 /// `position_error` is what it differs from `reference` by where both have points. Nothing where CVODE gives up, or
 /// where these are more than kMostPoints.
 std::optional<ReferenceSolution> reference_at_steps(const Flow<double>& flow,
                                                     const ReferenceSolution& reference, double sampling,
                                                     long steps);
-inline constexpr long kMostPoints = 400000;
 
 }  // namespace jourdain::studies
