@@ -133,8 +133,9 @@ TEST_F(DrivenRuns, WrongScenariosAreDiagnosed) {
   message("", "must have [input] or [follow]");
   message("[input]\n[follow]\nrail = 1\n", "not both");
   message("[input\n", "TOML syntax");
-  for (const char* motion : {"max(0, t - 0.5)", "abs(t - 1)", "0.3*floor(2*t)", "mod(t, 0.5)", "min(t, 1)^2",
-                             "if(t > 1, 1, 0)", "sign(t - 1)"})
+  for (const char* motion :
+       {"max(0, t - 0.5)", "abs(t - 1)", "0.3*floor(2*t)", "mod(t, 0.5)", "min(t, 1)^2", "if(t > 1, 1, 0)",
+        "sign(t - 1)", "sqrt((t - 1)^2)", "asin(sin(t))", "0.1*tan(t)"})
     message(fmt::format("[follow]\nrail = \"{}\"\n", motion),
             "s.toml:2:8: error: 'rail' of [follow] may have a kink");
   expect(simulate("models/crane.toml", {"--inputs", write("s.toml", "[follow]\na = 1\n")}), 1, "quaternions");

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "ir/interval.hpp"
 #include "ir/jacobian.hpp"
+#include "ir/program_intervals.hpp"
 #include "support/elementary_functions.hpp"
 #include "support/uniform.hpp"
 
@@ -14,6 +14,7 @@ namespace jourdain::ir {
 namespace {
 
 using support::Function;
+using support::Interval;
 using support::ScaledReal;
 
 /// But calls of user code, which have lists of arguments.

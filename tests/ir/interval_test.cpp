@@ -1,4 +1,4 @@
-#include "ir/interval.hpp"
+#include "ir/program_intervals.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,6 +13,7 @@
 namespace jourdain::ir {
 namespace {
 
+using support::Interval;
 using tests::Random;
 
 constexpr std::size_t kLeaves = 3;

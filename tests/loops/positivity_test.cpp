@@ -9,8 +9,8 @@
 namespace jourdain::loops {
 namespace {
 
-using ir::Interval;
 using ir::LeafKind;
+using support::Interval;
 
 Region region(std::vector<Interval> sides) {
   Region result;

@@ -18,10 +18,10 @@
 namespace jourdain::tests {
 namespace {
 
-using ir::Interval;
 using ir::LeafKind;
 using loops::RegularityProof;
 using loops::RegularityRequest;
+using support::Interval;
 using ::testing::HasSubstr;
 
 constexpr double kPi = std::numbers::pi;

@@ -12,9 +12,9 @@
 namespace jourdain::tests {
 namespace {
 
-using ir::Interval;
 using ir::LeafKind;
 using loops::ClosedForm;
+using support::Interval;
 
 constexpr std::uint64_t kLinkages = 100;
 /// Of the sum of the lengths: a loop that is open.

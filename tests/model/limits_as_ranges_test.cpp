@@ -35,7 +35,7 @@ to = "tip_b"
 length = 1
 )";
 
-Mechanism read(const std::string& more) {
+Mechanism read_with(const std::string& more) {
   const support::TemporaryFolder folder;
   const std::string model = folder.path() + "/model.toml";
   support::write_file(folder.path() + "/bars.urdf", kBars);
@@ -51,21 +51,22 @@ std::optional<std::array<double, 2>> range(const Mechanism& mechanism, std::size
 }
 
 TEST(Limits, AreRangesWhereLoopsAreAndTheStartLiesWithin) {
-  const Mechanism closed = read(kRod);
+  const Mechanism closed = read_with(kRod);
   EXPECT_EQ(range(closed, 0), (std::array<double, 2>{-1, 2}));
   EXPECT_FALSE(range(closed, 1));  // it starts at 0
 }
 
 TEST(Limits, AreNoRangesOfTreesAndCouplers) {
-  EXPECT_FALSE(range(read(""), 0));
-  EXPECT_FALSE(range(read("[[coupler]]\nname = \"c\"\ncoordinate = \"right\"\nfollows = \"left\"\n"), 0));
+  EXPECT_FALSE(range(read_with(""), 0));
+  EXPECT_FALSE(
+      range(read_with("[[coupler]]\nname = \"c\"\ncoordinate = \"right\"\nfollows = \"left\"\n"), 0));
 }
 
 TEST(Limits, GiveWayToWhatAnOverrideSays) {
   const std::string start = "[[override]]\njoint = \"left\"\n";
-  EXPECT_EQ(range(read(std::string(kRod) + start + "range = [-0.5, 0.5]\n"), 0),
+  EXPECT_EQ(range(read_with(std::string(kRod) + start + "range = [-0.5, 0.5]\n"), 0),
             (std::array<double, 2>{-0.5, 0.5}));
-  EXPECT_FALSE(range(read(std::string(kRod) + start + "initial_position = 2.5\n"), 0));
+  EXPECT_FALSE(range(read_with(std::string(kRod) + start + "initial_position = 2.5\n"), 0));
 }
 
 }  // namespace

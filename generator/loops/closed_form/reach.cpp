@@ -11,11 +11,11 @@
 
 namespace jourdain::loops {
 
-using ir::Interval;
 using ir::LeafKind;
 using ir::Node;
 using ir::Op;
 using ir::Program;
+using support::Interval;
 
 namespace {
 

@@ -7,13 +7,13 @@
 #include <optional>
 #include <vector>
 
-#include "ir/interval.hpp"
+#include "ir/program_intervals.hpp"
 #include "loops/intervals/angle_sums.hpp"
 #include "loops/intervals/variable.hpp"
 
 namespace jourdain::loops {
 
-using ir::Interval;
+using support::Interval;
 using Intervals = std::vector<Interval>;
 /// Encloses the outputs of a program: ir::interpret_interval. Tests put wrong ones in its place.
 using Evaluator = std::function<ir::IntervalResults(const ir::Program&, const ir::LeafValues<Interval>&)>;

@@ -9,10 +9,10 @@
 
 namespace jourdain::loops {
 
-using ir::Interval;
 using ir::IntervalResults;
 using ir::LeafValues;
 using ir::Program;
+using support::Interval;
 
 namespace {
 

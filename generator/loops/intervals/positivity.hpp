@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "ir/builder.hpp"
-#include "ir/interval.hpp"
+#include "ir/program_intervals.hpp"
 #include "loops/intervals/variable.hpp"
 
 namespace jourdain::loops {
@@ -19,7 +19,7 @@ struct Bound {
 /// The leaves that vary, each over a finite interval, and the intervals of all leaves.
 struct Region {
   std::vector<Variable> entries;
-  ir::LeafValues<ir::Interval> leaves;
+  ir::LeafValues<support::Interval> leaves;
 };
 
 /// Where a proof ended without success.

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "model/check/checks.hpp"
+#include "model/hidden_kinks.hpp"
 #include "model/loop_kinds.hpp"
 #include "model/motion_sources.hpp"
 
@@ -90,6 +91,8 @@ class MotionCheck {
     if (state.rate.has_kinks())
       return refuse(coordinate, follows + "may have a kink",
                     "its acceleration would jump; smooth_step, smooth_max and tanh have none");
+    if (const std::optional<HiddenKink> kink = hidden_kink(state.rate, parameters_, false))
+      return refuse(coordinate, follows + "may have a kink or a pole: " + in_words(*kink), hint_of(*kink));
     return true;
   }
 

@@ -106,13 +106,15 @@ class ConstraintReader {
     const auto height = [&] { return table_.function("height", needed::kLength, scope); };
     loop.height = height();
     if (file_.error_count() != mark) return;
-    if (kinks_of(file_, height) == Kinks::kWhereTablesEnd)
+    if (kinks_of(file_, height) == Kinks::kWhereTablesEnd) {
       file_.diagnostics().warning(
           table_.where("height"),
           fmt::format("{} has a kink where a table ends, where velocities jump", table_.quoted("height")),
           "stay inside; a curve may go on beyond its ends: beyond = \"extend\", or \"repeat\"");
-    else
+      refuse_hidden_kinks(file_, table_, "height", loop.height);
+    } else {
       refuse_kinks(file_, table_, "height", height);
+    }
     refuse_calls(table_, "height", loop.height);
     loop.approaches = read_approaches(table_, 1).value_or(loop.approaches);
   }

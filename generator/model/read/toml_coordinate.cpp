@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "model/hidden_kinks.hpp"
 #include "model/joint_kinds.hpp"
 #include "model/motion_sources.hpp"
 #include "model/read/toml_names.hpp"
@@ -12,6 +13,25 @@
 namespace jourdain::model {
 
 namespace {
+
+/// "velocity", the first one that is not, or nothing; nothing of states and functions that are not known yet.
+const char* not_finite_at_start(const TomlFile& file, const Expression& function) {
+  if (function.calls(support::Function::kCall) || !states_in(function).empty()) return nullptr;
+  std::vector<Taylor<double>> parameters;
+  for (const double value : file.values()) parameters.push_back({value, 0, 0});
+  const auto at_start = function.evaluate<Taylor<double>>(
+      parameters,
+      [](double v) {
+        return Taylor<double>{v, 0, 0};
+      },
+      [](const Variable&) {
+        return Taylor<double>{0, 1, 0};
+      });
+  return !std::isfinite(at_start.value)    ? "value"
+         : !std::isfinite(at_start.first)  ? "velocity"
+         : !std::isfinite(at_start.second) ? "acceleration"
+                                           : nullptr;
+}
 
 /// The initial position must lie in the range, at the parameters' default values.
 void read_range(TomlFile& file, const TomlTable& table, const Needed& position, Coordinate& coordinate) {
@@ -92,6 +112,16 @@ void refuse_kinks(TomlFile& file, const TomlTable& table, std::string_view key,
     table.error(key,
                 fmt::format("{} may have a kink, where velocities or accelerations jump", table.quoted(key)),
                 "it is differentiated twice; smooth_step, smooth_max, tanh and splines have none");
+  if (kinks == Kinks::kNone) refuse_hidden_kinks(file, table, key, read());
+}
+
+void refuse_hidden_kinks(TomlFile& file, const TomlTable& table, std::string_view key,
+                         const Expression& function) {
+  if (const std::optional<HiddenKink> kink = hidden_kink(function, file.values(), true))
+    table.error(key,
+                fmt::format("{} may have a kink or a pole, where velocities or accelerations jump: {}",
+                            table.quoted(key), in_words(*kink)),
+                hint_of(*kink));
 }
 
 Expression read_time_function(TomlFile& file, const TomlTable& table, std::string_view key,
@@ -100,26 +130,12 @@ Expression read_time_function(TomlFile& file, const TomlTable& table, std::strin
   const auto read = [&] { return table.function(key, needed, scope); };
   Expression function = read();
   if (file.error_count() != mark) return function;
-  refuse_kinks(file, table, key, read);
-  // Of states and functions that are not known yet there is no value here.
-  if (function.calls(support::Function::kCall) || !states_in(function).empty()) return function;
-  std::vector<Taylor<double>> parameters;
-  for (const double value : file.values()) parameters.push_back({value, 0, 0});
-  const auto at_start = function.evaluate<Taylor<double>>(
-      parameters,
-      [](double v) {
-        return Taylor<double>{v, 0, 0};
-      },
-      [](const Variable&) {
-        return Taylor<double>{0, 1, 0};
-      });
-  const char* what = !std::isfinite(at_start.value)    ? "value"
-                     : !std::isfinite(at_start.first)  ? "velocity"
-                     : !std::isfinite(at_start.second) ? "acceleration"
-                                                       : nullptr;
+  const char* const what = not_finite_at_start(file, function);
   if (what)
     table.error(key, fmt::format("the {} of {} is not finite at t = 0", what, table.quoted(key)),
                 fmt::format("the {} must start smoothly", key));
+  else
+    refuse_kinks(file, table, key, read);
   return function;
 }
 

@@ -71,6 +71,10 @@ Kinks kinks_of(TomlFile& file, const std::function<Expression()>& read);
 void refuse_kinks(TomlFile& file, const TomlTable& table, std::string_view key,
                   const std::function<Expression()>& read);
 
+/// An error where `function`, the value of `key`, may have a hidden one: see model/hidden_kinks.hpp.
+void refuse_hidden_kinks(TomlFile& file, const TomlTable& table, std::string_view key,
+                         const Expression& function);
+
 /// A function of time, with finite first and second derivatives at t = 0 and the parameters' default values;
 /// zero after a diagnostic that it cannot be read or where it is missing. `scope` has t and names that it refuses.
 Expression read_time_function(TomlFile& file, const TomlTable& table, std::string_view key,
