@@ -93,8 +93,8 @@ std::string shim(const std::string& name, const NumberText& number, const Compil
     const programs::Stepper& s = *record.stepper;
     steppers += stepper_struct(name, s);
     methods += fmt::format("\n    {{\"{0}\", {1}, {2}, {3}, {4}, {5}L, steps<{0}_method>}},", s.name,
-                           s.order_with(scene.all_derivatives), s.evaluations, s.history, int(s.implicit),
-                           record.operations);
+                           s.order_with(scene.has_whole_derivatives()), s.evaluations, s.history,
+                           int(s.implicit), record.operations);
     ++method_count;
   }
   std::string parameters;

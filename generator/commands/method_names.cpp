@@ -38,11 +38,10 @@ std::string check_steps(const std::vector<std::string>& functions, const LoadedM
   if (!loaded.plan() || loaded.plan()->carried().empty()) return "";
   for (const std::string& function : functions) {
     const programs::Stepper* stepper = programs::find_stepper(function.substr(0, function.rfind("_step")));
-    if (stepper && stepper->implicit)
+    if (stepper && stepper->order_with(false) == 0)
       return fmt::format(
-          "{} needs the velocities that follow from others in '{}', too; treatment = \"multipliers\" in "
-          "[loops] "
-          "keeps them",
+          "{} needs the derivatives of velocities that follow from others in '{}', too: take rosw43, or "
+          "treatment = \"multipliers\" in [loops]",
           stepper->name, loaded.mechanism.name);
   }
   return "";

@@ -74,12 +74,21 @@ void add_stage(const programs::SceneFacts& scene, const Rosenbrock& method, std:
   entries.push_back(set(stage.dot("sum_y")[i], sum(C, method.gamma, "y").sum()));
   entries.push_back(set(stage.dot("sum_z")[i], sum(C, method.gamma, "z").sum()));
   body.push_back(loop("i", scene.velocities.size(), entries));
+  if (!scene.carried.empty())
+    body.push_back(loop("i", scene.carried.size(),
+                        {set(stage.dot("carried")[i], sum(A, 1, "carried").sum()),
+                         set(stage.dot("sum_carried")[i], sum(C, method.gamma, "carried").sum())}));
   if (number > 0) {
     const double node = method.nodes[number];
     if (scene.clock && node != 0)
       body.push_back(set(stage.dot("state").dot("t"), state.dot("t") + (node == 1 ? h : node * h)));
     body.push_back({Call{"displace", {state, stage.dot("y"), stage.dot("state")}, true}});
-    for (int k = 0; k < scene.closings && scene.is_reduced; ++k)
+    for (std::size_t k = 0; k < scene.carried.size(); ++k) {
+      const std::size_t entry = scene.carried[k];
+      body.push_back(
+          set(stage.dot("state").dot("y")[entry], state.dot("y")[entry] + stage.dot("carried")[k]));
+    }
+    for (int k = 0; k < scene.closings && !scene.dependents.empty(); ++k)
       body.push_back({Call{"close_loops", {model, stage.dot("state")}}});
   }
   std::vector<Expression> arguments = {model, step, stage, input};
@@ -103,6 +112,15 @@ void add_end(const programs::SceneFacts& scene, const Rosenbrock& method, Statem
            {set(y, at_last ? gained("y").added_to(y) : gained("y").sum()),
             set(z, at_last ? z + (stage.dot("z")[i] + increment(stages - 1, "z")) : gained("z").added_to(z)),
             set(zdot, gained("a").added_to(at_last ? stage.dot("a")[i] : zdot))}));
+  if (!scene.carried.empty()) {
+    const Expression moved = stage.dot("carried")[i];
+    body.push_back(loop("i", scene.carried.size(),
+                        {set(moved, at_last ? gained("carried").added_to(moved) : gained("carried").sum())}));
+  }
+  for (std::size_t k = 0; k < scene.carried.size(); ++k) {
+    const Expression y_of_it = state.dot("y")[scene.carried[k]];
+    body.push_back(set(y_of_it, y_of_it + stage.dot("carried")[k]));
+  }
   for (const std::size_t entry : scene.dependents)
     body.push_back(set(state.dot("y")[entry], stage.dot("state").dot("y")[entry]));
   const bool turns = !scene.tangent.quaternions.empty();

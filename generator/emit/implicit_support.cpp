@@ -29,6 +29,7 @@ std::vector<std::vector<std::size_t>> couplings(const programs::SceneFacts& scen
   for (const ir::Output& output : derivatives.outputs) {
     if (output.name != "M" && output.name != "r_y" && output.name != "r_z") continue;
     const auto row = static_cast<std::size_t>(output.row), column = static_cast<std::size_t>(output.column);
+    if (column >= n) continue;  // of what is carried along, which stages know before they solve
     couple(row, column);
     for (const model::Tangent::Scalar& q : scene.tangent.quaternions)
       if (column >= q.velocity && column < q.velocity + 3)
@@ -64,17 +65,21 @@ Statement coupled_loop(const std::string& variable, Statements body) {
 Statement add_to(const Expression& target, const Expression& value) { return set(target, target + value); }
 
 std::vector<Struct> structs(const programs::SceneFacts& scene) {
-  const std::size_t n = scene.velocities.size(), quaternions = scene.tangent.quaternions.size();
-  const auto vectors = [n](std::initializer_list<const char*> names) {
+  const std::size_t n = scene.velocities.size(), quaternions = scene.tangent.quaternions.size(),
+                    carried = scene.carried.size();
+  const auto vectors = [n, carried](std::initializer_list<const char*> names,
+                                    std::initializer_list<const char*> of_carried) {
     Members members;
     for (const char* name : names) members.variables.push_back({name, {n}});
+    for (const char* name : of_carried)
+      if (carried > 0) members.variables.push_back({name, {carried}});
     return members;
   };
   Struct implicit{"ImplicitStep",
                   "What a linearly implicit step solves with, from the state that it starts at. W = M + s "
                   "r_z + s^2 r_y E, "
                   "factored; s = gamma h.",
-                  {{{{"s"}, {"W", {n, n}}, {"r_y", {n, n}}, {"r_z", {n, n}}}}}};
+                  {{{{"s"}, {"W", {n, n}}, {"r_y", {n, n + carried}}, {"r_z", {n, n}}}}}};
   if (residual_changes(scene)) implicit.members.push_back({{{"change", {n}}}, {}, "h dr/dt"});
   if (quaternions > 0) implicit.members.push_back({{{"spin", {quaternions, 4}}}, {}, "of E"});
   return {implicit,
@@ -82,8 +87,9 @@ std::vector<Struct> structs(const programs::SceneFacts& scene) {
            "Where a stage evaluates: local displacement from the start, change of z, accelerations, sums "
            "over earlier "
            "stages; state.",
-           {vectors({"y", "z", "a", "sum_y", "sum_z"}), {{{"state"}}, struct_type("State")}}},
-          {"Increment", "", {vectors({"y", "z", "a"})}}};
+           {vectors({"y", "z", "a", "sum_y", "sum_z"}, {"carried", "sum_carried"}),
+            {{{"state"}}, struct_type("State")}}},
+          {"Increment", "", {vectors({"y", "z", "a"}, {"carried"})}}};
 }
 
 /// A run of scalar coordinates whose entries in y and z differ by the same number.
@@ -272,7 +278,24 @@ Function begin_step(const programs::SceneFacts& scene) {
   return {"begin_step", "", parameters, {}, body};
 }
 
-Function solve_stage(const programs::SceneFacts& scene) {
+/// Increments of what is carried along are explicit: its own derivatives are left out, as W-methods may, so that they
+/// are known before the others, on which they act as displacements.
+void add_carried(const programs::SceneFacts& scene, const ir::Program& derivatives, Statements& body) {
+  if (scene.carried.empty()) return;
+  const std::size_t n = scene.velocities.size();
+  const Expression ydot = name("ydot"), moved = name("u").dot("carried"), r = name("r");
+  body.push_back({Declare{kRealType, Declare::Change::kFree, {{"ydot", {scene.positions.size()}}}}});
+  body.push_back({Call{"position_rate", {model, stage.dot("state"), ydot}}});
+  for (std::size_t k = 0; k < scene.carried.size(); ++k)
+    body.push_back(set(moved[k], step.dot("s") * ydot[scene.carried[k]] + stage.dot("sum_carried")[k]));
+  for (const ir::Output& output : derivatives.outputs) {
+    const auto row = static_cast<std::size_t>(output.row), column = static_cast<std::size_t>(output.column);
+    if (output.name == "r_y" && column >= n)
+      body.push_back(add_to(r[row], step.dot("r_y")[row][column] * moved[column - n]));
+  }
+}
+
+Function solve_stage(const programs::SceneFacts& scene, const ir::Program& derivatives) {
   const Expression nz = name("nz"), r = name("r"), rate = name("rate"), c = name("c"), v = name("v"),
                    u = name("u"), step_s = step.dot("s"), r_y = step.dot("r_y"), r_z = step.dot("r_z");
   const auto rotate_entries = [&](const Expression& vector, Statements& body) {
@@ -294,6 +317,7 @@ Function solve_stage(const programs::SceneFacts& scene) {
            {set(c[i], step_s * stage.dot("a")[i] + stage.dot("sum_z")[i]),
             set(rate[i], step_s * rate[i] + stage.dot("sum_y")[i]), set(v[i], rate[i] + step_s * c[i])})};
   rotate_entries(v, body);
+  add_carried(scene, derivatives, body);
   const Expression own = r[k] + r_z[k][k] * c[k] + r_y[k][k] * v[k];
   body.push_back(
       loop("k", nz,
@@ -312,14 +336,18 @@ Function solve_stage(const programs::SceneFacts& scene) {
                                        inputs_parameter(scene)};
   if (residual_changes(scene)) parameters.push_back({kRealType, "share"});
   parameters.push_back({struct_type("Increment"), "u", Access::kWrite});
-  return {"solve_stage",
-          "Solves for the increments of one stage: with u the increments, S their sums and E the rotation's "
-          "part,\n"
-          "u_z = s a + S_z + s u_a, u_y = E (s dy/dt + S_y + s u_z), r + r_y u_y + r_z u_z + M u_a + share h "
-          "r_t = 0.",
-          parameters,
-          {},
-          body};
+  return {
+      "solve_stage",
+      "Solves for the increments of one stage: with u the increments, S their sums and E the rotation's "
+      "part,\n"
+      "u_z = s a + S_z + s u_a, u_y = E (s dy/dt + S_y + s u_z), r + r_y u_y + r_z u_z + M u_a + share h "
+      "r_t = 0." +
+          std::string(scene.carried.empty() ? ""
+                                            : "\nWhat is carried along has u = s dy/dt + S, which moves the "
+                                              "others, and nothing moves it within the stage."),
+      parameters,
+      {},
+      body};
 }
 
 }  // namespace
@@ -338,7 +366,7 @@ void add_implicit_support(const programs::SceneFacts& scene, const ir::Program& 
   add(solve(n));
   if (!scene.inputs.empty()) add(add_input_change(scene));
   add(begin_step(scene));
-  add(solve_stage(scene));
+  add(solve_stage(scene, derivatives));
 }
 
 }  // namespace jourdain::emit

@@ -150,7 +150,7 @@ std::string manifest(const ModelText& model, const std::vector<programs::Functio
   const char* separator = "\n";
   for (const StepRecord& step : steps) {
     text += fmt::format(R"({}    "{}_step": {{"order": {}, "evaluations": {}, "operations": {}}})", separator,
-                        step.stepper->name, step.stepper->order_with(model.facts.all_derivatives),
+                        step.stepper->name, step.stepper->order_with(model.facts.has_whole_derivatives()),
                         step.stepper->evaluations, step.operations);
     separator = ",\n";
   }

@@ -64,7 +64,7 @@ Statements step_body(const programs::SceneFacts& scene, const programs::Stepper&
     corrections = scene.closings;
   } else if (const Rosenbrock* method = find_rosenbrock(stepper.name)) {
     body = rosenbrock_step(scene, *method);
-    if (scene.is_reduced) corrections = scene.closings;
+    if (!scene.dependents.empty()) corrections = scene.closings;
   } else {
     body = explicit_step(stepper, scene.clock);
     for (const model::Tangent::Scalar& quaternion : scene.tangent.quaternions)

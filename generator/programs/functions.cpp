@@ -304,7 +304,7 @@ bool has_function(const FunctionInfo& function, const SceneFacts& scene) {
       return true;
     case Shape::kStep:
       return (function.stepper->history == 0 || !*sampling(scene)) &&
-             (!function.stepper->implicit || scene.carried.empty());
+             function.stepper->order_with(scene.has_whole_derivatives()) > 0;
     case Shape::kVector:
     case Shape::kMatrix:
     case Shape::kLinearization:

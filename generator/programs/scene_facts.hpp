@@ -59,6 +59,8 @@ struct SceneFacts {
   std::size_t moving() const { return velocities.size() - states.size(); }
   /// Displacements of positions that are not closed: of the independent coordinates, then of those carried along.
   std::size_t displacements() const { return moving() + carried.size(); }
+  /// Of the residual and of all rates, for linearly implicit steps, which leave out those of what is carried along.
+  bool has_whole_derivatives() const { return all_derivatives && carried.empty(); }
   /// "floor_x, floor_y"
   std::string carried_names() const;
   /// dy/dt is not z.

@@ -83,7 +83,7 @@ Derivatives OpaqueSystem::residual_derivatives(const Motion& motion, const Exact
   const ExactVector& values =
       answer("residual_derivatives", arguments_of(expected_, motion, input, accelerations), outputs.size());
   const std::size_t n = expected_.velocities.size();
-  Derivatives result = {zero_matrix(n, n), zero_matrix(n, n), zero_matrix(n, n),
+  Derivatives result = {zero_matrix(n, n), zero_matrix(n, n + expected_.carried.size()), zero_matrix(n, n),
                         zero_matrix(n, expected_.inputs.size()), ExactVector(n, exact(0.0))};
   std::map<std::string, ExactMatrix*> matrices = {
       {"M", &result.M}, {"r_y", &result.r_y}, {"r_z", &result.r_z}, {"r_u", &result.r_u}};

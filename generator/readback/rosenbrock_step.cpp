@@ -4,7 +4,8 @@
 //   K^x_i = h rate(X_i, Z_i) + h (J Σ γ_ij K^x_j + Σ γ_ij K^z_j)
 //   K^z_i = h A_i + h Σ γ_ij K^a_j
 //   0     = r(X_i, Z_i, A_i, t_i) + r_y Σ γ_ij K^x_j + r_z Σ γ_ij K^z_j + M Σ γ_ij K^a_j + h (Σ_j γ_ij) r_t
-// with sums over j ≤ i; J is ∂rate/∂x at the start, which only rotations have. A rotation's displacement is
+// with sums over j ≤ i; of positions c that are carried along, c' = g(x, z, c, t), with derivatives of g left out as in
+// W-methods: K^c_i = h g(X_i, Z_i, C_i, t_i), and r_c Σ γ_ij K^c_j beside r_y Σ γ_ij K^x_j. J is ∂rate/∂x at the start, which only rotations have. A rotation's displacement is
 // twice its Gibbs vector.
 #include "readback/step_data.hpp"
 
@@ -33,6 +34,7 @@ class RosenbrockStep {
         data_(data),
         start_(data.motion),
         n_(expected.velocities.size()),
+        carried_(expected.carried.size()),
         stages_(table.m.size()) {}
 
   void take() {
@@ -101,9 +103,9 @@ class RosenbrockStep {
     }
   }
 
-  /// Of K = (K^x, K^z, K^a) in the equations of one stage.
+  /// Of K = (K^x, K^z, K^a, K^c) in the equations of one stage.
   ExactMatrix matrix() const {
-    ExactMatrix W = identity(3 * n_);
+    ExactMatrix W = identity(3 * n_ + carried_);
     const Exact gamma = exact(table_.gamma), s = data_.h * gamma;
     for (std::size_t i = 0; i < n_; ++i) {
       for (std::size_t j = 0; j < n_; ++j) {
@@ -112,6 +114,8 @@ class RosenbrockStep {
         W[2 * n_ + i][n_ + j] = gamma * derivatives_.r_z[i][j];
         W[2 * n_ + i][2 * n_ + j] = gamma * derivatives_.M[i][j];
       }
+      for (std::size_t c = 0; c < carried_; ++c)
+        W[2 * n_ + i][3 * n_ + c] = gamma * derivatives_.r_y[i][n_ + c];
       W[i][n_ + i] = -s;
       W[n_ + i][2 * n_ + i] = -s;
     }
@@ -120,7 +124,7 @@ class RosenbrockStep {
 
   /// Σ_j factors[j] K_j over the stages so far.
   ExactVector combination(const ExactVector& factors) const {
-    ExactVector sum(3 * n_, exact(0.0));
+    ExactVector sum(3 * n_ + carried_, exact(0.0));
     for (std::size_t j = 0; j < K_.size(); ++j)
       for (std::size_t i = 0; i < sum.size(); ++i) sum[i] = sum[i] + factors[j] * K_[j][i];
     return sum;
@@ -141,13 +145,20 @@ class RosenbrockStep {
       a[k] = a[k] + moved[2 * n_ + k];
     }
     if (i > 0) displace(x, stage);
+    if (i > 0) carry(moved, stage);
     if (i > 0 && !expected_.dependents.empty())
       for (int k = 0; k < expected_.closings; ++k) system_.correct(stage);
     const ExactVector r = system_.residual(stage, input_at(system_, data_, stage), a),
                       rate = rate_of(x, stage.z);
-    const ExactVector Jx = J_ * part(damped, 0), ry = derivatives_.r_y * part(damped, 0),
+    ExactVector displaced = part(damped, 0);
+    displaced.insert(displaced.end(), damped.end() - static_cast<long>(carried_), damped.end());
+    const ExactVector Jx = J_ * part(damped, 0), ry = derivatives_.r_y * displaced,
                       rz = derivatives_.r_z * part(damped, 1), Ma = derivatives_.M * part(damped, 2);
-    ExactVector b(3 * n_, exact(0.0));
+    ExactVector b(3 * n_ + carried_, exact(0.0));
+    if (carried_ > 0) {
+      const ExactVector rates = system_.position_rate(stage);
+      for (std::size_t c = 0; c < carried_; ++c) b[3 * n_ + c] = data_.h * rates[expected_.carried[c]];
+    }
     for (std::size_t k = 0; k < n_; ++k) {
       b[k] = data_.h * (rate[k] + Jx[k] + damped[n_ + k]);
       b[n_ + k] = data_.h * (a[k] + damped[2 * n_ + k]);
@@ -178,12 +189,18 @@ class RosenbrockStep {
     normalise_quaternions(expected_, moved);
   }
 
+  void carry(const ExactVector& moved, Motion& motion) const {
+    for (std::size_t c = 0; c < carried_; ++c)
+      motion.y[expected_.carried[c]] = start_.y[expected_.carried[c]] + moved[3 * n_ + c];
+  }
+
   /// The end of the step; dependent positions are looked for near those of the last stage.
   void finish(const Motion& last_stage) {
     const ExactVector moved = combination(b_);
     Motion& motion = data_.motion;
     for (const std::size_t entry : expected_.dependents) motion.y[entry] = last_stage.y[entry];
     displace(part(moved, 0), motion);
+    carry(moved, motion);
     for (std::size_t k = 0; k < n_; ++k) {
       motion.z[k] = start_.z[k] + moved[n_ + k];
       data_.accelerations[k] = data_.accelerations[k] + moved[2 * n_ + k];
@@ -198,7 +215,7 @@ class RosenbrockStep {
   OpaqueSystem& system_;
   StepData& data_;
   const Motion start_;
-  std::size_t n_, stages_;
+  std::size_t n_, carried_, stages_;
   ExactMatrix alpha_, Gamma_, J_;
   ExactVector b_, change_;
   Derivatives derivatives_;

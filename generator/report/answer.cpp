@@ -177,7 +177,7 @@ std::string warnings_html(const std::vector<std::string>& remarks) {
 
 std::string answer_html(const jourdain_model_table& table, const Study& study) {
   const std::string sentence = studies::advice_text(table, study);
-  const bool has_answer = study.advice && !study.untrusted_from;
+  const bool has_answer = study.advice && !study.untrusted;
   const std::string reason =
       sentence.empty()
           ? "nothing was asked for, neither a largest error (--tolerance) nor a run time (--budget)"

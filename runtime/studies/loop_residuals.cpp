@@ -44,14 +44,18 @@ LoopRun run(const Flow<double>& flow, std::size_t method, double h, double durat
 
 }  // namespace
 
-std::optional<double> first_untrusted(const Flow<double>& flow, double h, double duration) {
+std::optional<Untrusted> first_untrusted(const Flow<double>& flow, double h, double duration,
+                                         double most_open) {
   if (!flow.has_loops()) return {};
   Point<double> point = flow.start();
   const jourdain_method& stepper = flow.table().methods[0];
   Memory memory = flow.fresh_memory(stepper);
   for (long k = 1; k * h <= duration; ++k) {
     flow.step(stepper, point, h, 1, memory);
-    if (!flow.is_trusted()) return static_cast<double>(k) * h;
+    const double now = static_cast<double>(k) * h;
+    if (!flow.is_trusted()) return Untrusted{now, {}};
+    if (!std::isfinite(most_open)) continue;
+    if (const double open = flow.residuals(point).position; open > most_open) return Untrusted{now, open};
   }
   return {};
 }

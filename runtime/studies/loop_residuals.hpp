@@ -19,9 +19,16 @@ struct LoopRun {
   bool finite = true;  ///< false: up to the step that was not
 };
 
-/// When the first step ended, of `h` (s) over `duration` (s) by the table's first method, whose closing is not
-/// to be trusted; none where all are, and without loops.
-std::optional<double> first_untrusted(const Flow<double>& flow, double h, double duration);
+/// From when on the loops' closing is singular or beyond what is proven, or constraints contradict each other.
+struct Untrusted {
+  double from = 0;             ///< s
+  std::optional<double> open;  ///< m, rad: by which those are open that follow from the others
+};
+
+/// After the first step of `h` (s) over `duration` (s) by the table's first method whose closing is not to be trusted,
+/// or leaves constraints open by more than `most_open` (m, rad); none where all are, and without loops.
+std::optional<Untrusted> first_untrusted(const Flow<double>& flow, double h, double duration,
+                                         double most_open);
 
 /// Runs over `duration` (s) with the recommended step, and with ten times that step. Without a recommendation
 /// the cheapest point of the study within 1e-6 (rad, m) takes its place, or the most accurate one. Empty where

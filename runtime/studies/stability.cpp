@@ -163,13 +163,19 @@ void observe(const Flow<double>& flow, const ReferenceSolution& reference, const
 
 namespace {
 
-/// Of an L-stable method.
-LimitsAlong no_limits(std::size_t count) {
+/// Of an L-stable method; nothing is predicted of one that leaves derivatives out.
+LimitsAlong no_limits(std::size_t count, bool is_whole) {
   LimitsAlong along;
   along.limits.assign(count, std::numeric_limits<double>::infinity());
   along.smallest.h = std::numeric_limits<double>::infinity();
-  along.smallest.implicit = true;
+  along.smallest.implicit = is_whole;
   return along;
+}
+
+bool carries_along(const Flow<double>& flow, const model::Tangent& tangent) {
+  return std::any_of(tangent.scalars.begin(), tangent.scalars.end(), [&](const model::Tangent::Scalar& s) {
+    return s.velocity >= static_cast<std::size_t>(flow.table().velocity_count);
+  });
 }
 
 }  // namespace
@@ -198,8 +204,8 @@ Stability study_stability(const Flow<double>& flow, const ReferenceSolution& ref
   }
   for (int m = 0; m < flow.table().method_count; ++m) {
     const jourdain_method& method = flow.table().methods[m];
-    const LimitsAlong along =
-        method.implicit ? no_limits(locals.size()) : limits_along(method.name, locals, scene);
+    const LimitsAlong along = method.implicit ? no_limits(locals.size(), !carries_along(flow, tangent))
+                                              : limits_along(method.name, locals, scene);
     for (std::size_t k = 0; k < locals.size(); ++k) result.points[k].limits.push_back(along.limits[k]);
     result.limits.push_back(along.smallest);
     result.limits.back().method = static_cast<std::size_t>(m);

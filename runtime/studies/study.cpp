@@ -190,7 +190,8 @@ Study run_study(const model::Mechanism& mechanism, const model::Tangent& tangent
       std::max(kFewestIntervals, static_cast<long>(std::ceil(options.duration / sampling - 1e-9)));
   study.options.duration = static_cast<double>(wanted) * sampling;
 
-  study.untrusted_from = first_untrusted(flow, study.steps.back(), study.options.duration);
+  study.untrusted =
+      first_untrusted(flow, study.steps.back(), study.options.duration, study.options.most_open);
   study.reference = solve_reference(flow, long_flow, options.reference, sampling, wanted, options.halvings,
                                     options.seconds, progress);
   study.judged = study.reference.points.back().t - study.reference.points.front().t;
@@ -224,7 +225,7 @@ Study run_study(const model::Mechanism& mechanism, const model::Tangent& tangent
   if (long_flow)
     study.extremes =
         study_extremes(mechanism, tangent, parameters, flow, *long_flow, study.reference, progress);
-  if (!study.untrusted_from && (options.question.tolerance || options.question.budget)) {
+  if (!study.untrusted && (options.question.tolerance || options.question.budget)) {
     progress("recommendation", 0);
     study.advice = advise(options.question, study.work, flow, sampling, study.reference, held);
     if (study.advice)

@@ -1,6 +1,7 @@
 // Everything that a report says about one model, method by method and step by step.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,7 +31,8 @@ struct StudyOptions {
   bool forms = true;         ///< compare with equations of the first kind
   std::vector<TouchFacts> touches = {};    ///< of the outputs that come last
   std::optional<double> penetration = {};  ///< m or rad: depth that is wanted of them
-  double seconds = 8;                      ///< of work for each costly part, nominal: counted, see work.hpp
+  double most_open = INFINITY;  ///< m, rad: by which constraints that follow from the others may be open
+  double seconds = 8;           ///< of work for each costly part, nominal: counted, see work.hpp
 };
 
 /// How a method's error comes about, over the steps where the parts could be computed.
@@ -69,9 +71,7 @@ struct Study {
   Alternatives alternatives;   ///< to the recommended step
   std::vector<LoopRun> loops;  ///< empty without loops
   std::optional<Touches> touches;
-  /// s: when the loops' closing turns singular, or leaves what is proven, at the shortest step; then there is
-  /// no advice.
-  std::optional<double> untrusted_from;
+  std::optional<Untrusted> untrusted;  ///< at the shortest step; then there is no advice
 };
 
 /// `long_flow` may be null: no 50 digits then; `free` too: no emitted code of the first kind. Inputs and

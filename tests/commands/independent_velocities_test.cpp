@@ -24,12 +24,19 @@ class IndependentVelocitiesOnTheCommandLine : public testing::Test {
   const std::string csv_ = folder_.path() + "/run.csv", out_ = folder_.path() + "/out";
 };
 
-TEST_F(IndependentVelocitiesOnTheCommandLine, LinearlyImplicitStepsNeedMultipliers) {
-  const std::string why = "ros34pw2 needs the velocities that follow from others";
-  expect(run("simulate", {"--method", "ros34pw2", "--output", csv_}), 2, why);
-  expect(run("compile", {"--functions", "ros34pw2_step", "-o", out_}), 2, why);
-  expect(run("cost", {"--methods", "rk4,ros34pw2"}), 2, why);
-  expect(run("report", {"--methods", "rk4,ros34pw2", "-o", out_}), 2, why);
+TEST_F(IndependentVelocitiesOnTheCommandLine, StepsThatNeedAllDerivativesNeedMultipliers) {
+  const std::string why = "rodas4 needs the derivatives of velocities that follow from others";
+  expect(run("simulate", {"--method", "rodas4", "--output", csv_}), 2, why);
+  expect(run("compile", {"--functions", "rodas4_step", "-o", out_}), 2, why);
+  expect(run("cost", {"--methods", "rk4,rodas4"}), 2, why);
+  expect(run("report", {"--methods", "rk4,rodas4", "-o", out_}), 2, why);
+}
+
+TEST_F(IndependentVelocitiesOnTheCommandLine, WMethodsDoWithoutSome) {
+  expect(
+      run("compile", {"--functions", "ros34pw2_step,rosw43_step,linearly_implicit_euler_step", "-o", out_}),
+      0, "3 steps as defined");
+  expect(run("simulate", {"--method", "rosw43", "--output", csv_, "--constant-input", "0.2,0.3"}), 0, "");
 }
 
 TEST_F(IndependentVelocitiesOnTheCommandLine, AreProvenAgainAtOtherParameters) {

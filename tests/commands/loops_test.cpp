@@ -147,6 +147,9 @@ residual = "slide - 1 - 0.1*t + 1e-5*t^2"
          "loops open by 0.001 m");
   expect(jourdain({"simulate", path, "--duration", "30", "--step", "0.01", "--output", csv}), 1,
          "error: at t = 14.15 s constraints contradict each other");
+  expect(jourdain({"report", path, "--duration", "16", "--halvings", "2", "--methods", "rk4", "--no-plots",
+                   "--output", folder.path() + "/report"}),
+         0, "NOT TO BE TRUSTED from t = 14.14");
 }
 
 TEST(LoopCommands, LoopsAreClosedAgainAtOtherParameters) {

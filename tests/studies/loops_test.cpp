@@ -59,11 +59,11 @@ struct Moving {
 TEST(LoopStudies, ARunIsTrustedUntilACoordinateLeavesTheRangeOfTheProof) {
   for (const char* treatment : {"explicit", "partitioned"}) {
     const Moving moving(four_bar(treatment, kFunctions, "range = [1, 1.2]\n"));
-    const auto untrusted = first_untrusted(moving.flow, 1e-3, 1);
+    const auto untrusted = first_untrusted(moving.flow, 1e-3, 1, INFINITY);
     ASSERT_TRUE(untrusted) << treatment;
-    EXPECT_GT(moving.later(moving.flow.start(), 1e-3, std::lround(*untrusted / 1e-3)).x[0], 1.2);
+    EXPECT_GT(moving.later(moving.flow.start(), 1e-3, std::lround(untrusted->from / 1e-3)).x[0], 1.2);
     EXPECT_FALSE(moving.flow.is_trusted());
-    EXPECT_LT(moving.later(moving.flow.start(), 1e-3, std::lround(*untrusted / 1e-3) - 1).x[0], 1.2);
+    EXPECT_LT(moving.later(moving.flow.start(), 1e-3, std::lround(untrusted->from / 1e-3) - 1).x[0], 1.2);
     EXPECT_TRUE(moving.flow.is_trusted());
   }
 }

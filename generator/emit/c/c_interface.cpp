@@ -258,8 +258,8 @@ class Interface {
       if (record.stepper == function.stepper) operations = record.operations;
     return fmt::format("  {{\"{0}\", {1}, {2}, {3}, {4}L, step_{0}}},\n", function.name,
                        c_string(in_one_line(function.comment)),
-                       function.stepper->order_with(scene_.all_derivatives), remembers(function) ? 1 : 0,
-                       operations);
+                       function.stepper->order_with(scene_.has_whole_derivatives()),
+                       remembers(function) ? 1 : 0, operations);
   }
 
   std::string table() const {
