@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "loops/rows/disagreement.hpp"
+#include "model/loop_kinds.hpp"
 
 namespace jourdain::commands {
 
@@ -18,9 +19,12 @@ constexpr double kOpen = 1e-9, kRoundings = 32;
 }  // namespace
 
 LoopGuard::LoopGuard(const studies::Flow<double>& flow, const LoadedMechanism& loaded, double h)
-    : flow_(flow), loaded_(loaded), h_(h) {}
+    : flow_(flow), loaded_(loaded), parameters_(model::default_values(loaded.mechanism)), h_(h) {}
 
 std::string LoopGuard::problem(const studies::Point<double>& point) const {
+  if (const model::Loop* bar = model::bar_without_length(loaded_.mechanism, parameters_, point.t))
+    return fmt::format("at t = {:g} s the length of {} is no longer positive", point.t,
+                       model::in_words(*bar));
   const jourdain_closing closing = flow_.last_closing();
   if (!(closing.regularity >= flow_.table().least_regularity)) return singular(point.t, closing.regularity);
   if (closing.beyond > 0) return out_of_range(point);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "commands/load.hpp"
 #include "studies/flow.hpp"
@@ -25,6 +26,7 @@ class LoopGuard {
 
   const studies::Flow<double>& flow_;
   const LoadedMechanism& loaded_;
+  std::vector<double> parameters_;
   double h_;
 };
 

@@ -53,11 +53,11 @@ struct Trajectory {
   Point<double> end;
   std::vector<double> times;  ///< of all rows, where something is drawn
   std::vector<SampledSignal> drawn;
-  double first_energy = 0, largest_drift = 0;
-  studies::Residuals open;        ///< largest, of the loops
-  std::vector<double> end_rates;  ///< of the positions
-  double stepping_time = 0;       ///< s of wall time spent in steps
-  std::optional<Breach> breach;   ///< where the run ended early
+  double first_energy = 0, largest_drift = 0, largest_kinetic = 0;  ///< J
+  studies::Residuals open;                                          ///< largest, of the loops
+  std::vector<double> end_rates;                                    ///< of the positions
+  double stepping_time = 0;                                         ///< s of wall time spent in steps
+  std::optional<Breach> breach;                                     ///< where the run ended early
 };
 
 class Simulation {
@@ -128,9 +128,11 @@ class Simulation {
   void watch(const Point<double>& before, const Point<double>& point) {
     if (const std::string what = trouble(point); !what.empty())
       state_.breach = {before, point, what, bounds_.breach(point).empty()};
-    if (conserves_energy_)
+    if (conserves_energy_) {
       state_.largest_drift =
           std::max(state_.largest_drift, std::fabs(flow_.energy(point) - state_.first_energy));
+      state_.largest_kinetic = std::max(state_.largest_kinetic, flow_.kinetic_energy(point));
+    }
     if (!flow_.has_loops()) return;
     const studies::Residuals open = flow_.residuals(point);
     state_.open.position = std::max(state_.open.position, open.position);
@@ -166,6 +168,19 @@ class Simulation {
   Point<double> last_;  ///< before the last step of a block
   Trajectory state_;
 };
+
+/// Of the energy of a run that nothing changes; a few steps from rest may be off by a large part of little.
+std::string drift_text(const Trajectory& result, const SimulateArguments& arguments, long steps) {
+  constexpr double kShare = 0.1;
+  constexpr long kFewSteps = 20;
+  if (steps < kFewSteps || !(result.largest_drift > kShare * result.largest_kinetic)) return "";
+  return fmt::format(
+      "the energy, which nothing changes, drifted by {:.2g} J, of motion there were {:.2g} J at most: this "
+      "is not the "
+      "motion of the mechanism; steps of {:g} s may be too long{}",
+      result.largest_drift, result.largest_kinetic, arguments.step,
+      arguments.run.real == "float" ? ", or float too coarse, as near singular positions" : "");
+}
 
 /// Six decimals; six digits where that would be many.
 std::string coordinate_text(double value) {
@@ -260,14 +275,16 @@ int run(const SimulateArguments& arguments) {
   if (!picture.empty()) support::write_file(plot->file, picture);
   if (picture.empty() && !plot->file.empty())
     fmt::print(stderr, "note: no plot: no value of what it was to show is finite\n");
+  const std::string drift = drift_text(result, arguments, *steps);
+  if (!drift.empty()) fmt::print(stderr, "error: {}\n", drift);
   if (arguments.output == "-") {
     fmt::print("{}", csv);
-    return kSuccess;
+    return drift.empty() ? kSuccess : kModelWrong;
   }
   support::write_file(output, csv);
   print_summary(*model, *inputs, arguments, loaded.table(), result, *steps);
   fmt::print("  wrote {}{}\n", output, picture.empty() ? "" : ", " + plot->file);
-  return kSuccess;
+  return drift.empty() ? kSuccess : kModelWrong;
 }
 
 }  // namespace

@@ -286,8 +286,8 @@ void add_carried(const programs::SceneFacts& scene, const ir::Program& derivativ
   const Expression ydot = name("ydot"), moved = name("u").dot("carried"), r = name("r");
   body.push_back({Declare{kRealType, Declare::Change::kFree, {{"ydot", {scene.positions.size()}}}}});
   body.push_back({Call{"position_rate", {model, stage.dot("state"), ydot}}});
-  for (std::size_t k = 0; k < scene.carried.size(); ++k)
-    body.push_back(set(moved[k], step.dot("s") * ydot[scene.carried[k]] + stage.dot("sum_carried")[k]));
+  for (std::size_t c = 0; c < scene.carried.size(); ++c)
+    body.push_back(set(moved[c], step.dot("s") * ydot[scene.carried[c]] + stage.dot("sum_carried")[c]));
   for (const ir::Output& output : derivatives.outputs) {
     const auto row = static_cast<std::size_t>(output.row), column = static_cast<std::size_t>(output.column);
     if (output.name == "r_y" && column >= n)

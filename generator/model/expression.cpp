@@ -139,9 +139,15 @@ std::size_t Expression::written_out_size() const {
 }
 
 bool Expression::has_kinks() const {
-  return std::any_of(nodes_.begin(), nodes_.end(), [](const Node& node) {
-    return node.op == Op::kFunction && support::facts_of(node.function).has_kinks;
-  });
+  std::vector<char> moves;
+  for (const Node& node : nodes_) {
+    const int operands = operand_count(node);
+    moves.push_back(node.op == Op::kVariable || (operands >= 1 && moves[node.left] != 0) ||
+                    (operands == 2 && moves[node.right] != 0));
+    if (moves.back() != 0 && node.op == Op::kFunction && support::facts_of(node.function).has_kinks)
+      return true;
+  }
+  return false;
 }
 
 bool Expression::calls(support::Function function) const {

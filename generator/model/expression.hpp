@@ -115,7 +115,7 @@ class Expression {
   bool has_undefined_part(std::span<const double> parameters) const;
   /// Operations and operands where shared operands count each time; no more than a little beyond the limit.
   std::size_t written_out_size() const;
-  /// Value or derivative may jump where a variable or a parameter moves on: see support::FunctionFacts.
+  /// Value or derivative may jump where a variable moves on: see support::FunctionFacts.
   bool has_kinks() const;
   /// Calls `function`.
   bool calls(support::Function function) const;

@@ -69,6 +69,16 @@ std::string in_words(const Loop& loop) {
                      support::shown(loop.name));
 }
 
+const Loop* bar_without_length(const Mechanism& mechanism, const std::vector<double>& parameters, double t) {
+  for (const Loop& loop : mechanism.loops) {
+    if (!loop_kind(loop).is_bar()) continue;
+    const auto length = loop.length.evaluate<double>(
+        parameters, [](double v) { return v; }, [t](const Variable&) { return t; });
+    if (!(length > 0)) return &loop;
+  }
+  return nullptr;
+}
+
 const Loop& loop_of_row(const Mechanism& mechanism, std::size_t row) {
   std::size_t loop = 0;
   for (std::size_t first = 0; row >= first + row_count(mechanism.loops[loop].type); ++loop)

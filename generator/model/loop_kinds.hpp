@@ -41,6 +41,10 @@ std::string in_words(const Loop& loop);
 /// Whether some row binds velocities alone.
 bool binds_velocities(const Mechanism& mechanism);
 
+/// A bar whose length is not positive at that time (s), which is then closed as if it were as long the other way; null
+/// where there is none.
+const Loop* bar_without_length(const Mechanism& mechanism, const std::vector<double>& parameters, double t);
+
 /// Whose constraint row that is.
 const Loop& loop_of_row(const Mechanism& mechanism, std::size_t row);
 

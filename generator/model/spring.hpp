@@ -28,7 +28,13 @@ struct Spring {
   static std::optional<ScalarCoordinate> pushed() { return {}; }
   std::vector<FrameIndex> ends() const { return {from, to}; }
   std::vector<Expression*> expressions();
-  bool conserves_energy() const { return damping.is_zero() && (law.is_zero() || potential); }
+  bool conserves_energy() const {
+    return damping.is_zero() && (law.is_zero() || (potential && !names_rate()));
+  }
+  /// Whether the law does.
+  bool names_rate() const {
+    return any_variable(law, [](const Variable& variable) { return variable.component == 1; });
+  }
   static std::string assumption();
 };
 

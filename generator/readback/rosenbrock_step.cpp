@@ -5,8 +5,8 @@
 //   K^z_i = h A_i + h Σ γ_ij K^a_j
 //   0     = r(X_i, Z_i, A_i, t_i) + r_y Σ γ_ij K^x_j + r_z Σ γ_ij K^z_j + M Σ γ_ij K^a_j + h (Σ_j γ_ij) r_t
 // with sums over j ≤ i; of positions c that are carried along, c' = g(x, z, c, t), with derivatives of g left out as in
-// W-methods: K^c_i = h g(X_i, Z_i, C_i, t_i), and r_c Σ γ_ij K^c_j beside r_y Σ γ_ij K^x_j. J is ∂rate/∂x at the start, which only rotations have. A rotation's displacement is
-// twice its Gibbs vector.
+// W-methods: K^c_i = h g(X_i, Z_i, C_i, t_i), and r_c Σ γ_ij K^c_j beside r_y Σ γ_ij K^x_j. J is ∂rate/∂x at the start,
+// which only rotations have. A rotation's displacement is twice its Gibbs vector.
 #include "readback/step_data.hpp"
 
 namespace jourdain::readback {

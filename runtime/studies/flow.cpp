@@ -134,6 +134,15 @@ double Flow<Real>::energy(const Point<Real>& point) const {
 }
 
 template <class Real>
+double Flow<Real>::kinetic_energy(const Point<Real>& point) const {
+  const std::vector<double> time = to_parts<Real>(std::span(&point.t, 1)), state = to_parts<Real>(point.x);
+  std::vector<double> kinetic(kParts<Real>);
+  table_.kinetic_energy(time.data(), state.data(), state.data() + position_count() * kParts<Real>,
+                        kinetic.data());
+  return static_cast<double>(number_at<Real>(kinetic.data()));
+}
+
+template <class Real>
 Point<Real> Flow<Real>::corrected(const Point<Real>& point) const {
   if (!has_loops()) return point;
   const std::vector<double> time = to_parts<Real>(std::span(&point.t, 1));

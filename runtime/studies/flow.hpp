@@ -76,6 +76,7 @@ class Flow {
   void step(const jourdain_method& method, Point<Real>& point, double h, long count, Memory& memory) const;
   /// Kinetic and potential energy together, J.
   double energy(const Point<Real>& point) const;
+  double kinetic_energy(const Point<Real>& point) const;
 
   /// `point` after the correction that steps end with; itself where there are no loops.
   Point<Real> corrected(const Point<Real>& point) const;

@@ -1,5 +1,7 @@
 #include "studies/loop_residuals.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -53,9 +55,15 @@ std::optional<Untrusted> first_untrusted(const Flow<double>& flow, double h, dou
   for (long k = 1; k * h <= duration; ++k) {
     flow.step(stepper, point, h, 1, memory);
     const double now = static_cast<double>(k) * h;
-    if (!flow.is_trusted()) return Untrusted{now, {}};
+    if (!flow.is_trusted())
+      return Untrusted{
+          now, "the loops' closing turns singular, or a coordinate leaves the range for which it is proven"};
     if (!std::isfinite(most_open)) continue;
-    if (const double open = flow.residuals(point).position; open > most_open) return Untrusted{now, open};
+    if (const double open = flow.residuals(point).position; open > most_open)
+      return Untrusted{
+          now, fmt::format("constraints contradict each other, those that follow from the others are open by "
+                           "{:.2g} m",
+                           open)};
   }
   return {};
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "studies/advice.hpp"
@@ -21,8 +22,8 @@ struct LoopRun {
 
 /// From when on the loops' closing is singular or beyond what is proven, or constraints contradict each other.
 struct Untrusted {
-  double from = 0;             ///< s
-  std::optional<double> open;  ///< m, rad: by which those are open that follow from the others
+  double from = 0;  ///< s
+  std::string why;  ///< "constraints contradict each other"
 };
 
 /// After the first step of `h` (s) over `duration` (s) by the table's first method whose closing is not to be trusted,

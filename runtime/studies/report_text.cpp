@@ -153,9 +153,8 @@ std::string advice_text(const jourdain_model_table& table, const Study& study) {
                          : fmt::format("{} per {}", time_text(*question.budget), time_text(question.period));
   const std::string stiff = stiff_text(table, study), remark = stiff.empty() ? "" : "; " + stiff;
   if (study.untrusted)
-    return fmt::format("within {}: no recommendation, {}", asked,
-                       study.untrusted->open ? "constraints contradict each other"
-                                             : "the loops turn singular or leave what is proven of them");
+    return fmt::format("within {}: no recommendation, {} at t = {}", asked, study.untrusted->why,
+                       time_text(study.untrusted->from));
   if (!study.advice && question.tolerance && study.reference.position_error >= *question.tolerance)
     return fmt::format(
         "within {}: no recommendation, the reference itself is only known to {:.1g}; allow more, or try "
@@ -187,14 +186,8 @@ std::vector<std::string> remarks(const jourdain_model_table& table, const Study&
         time_text(study.judged), time_text(study.options.duration), kParted));
   if (study.untrusted)
     list.push_back(
-        fmt::format("NOT TO BE TRUSTED from t = {} on: there {}; no step is recommended",
-                    time_text(study.untrusted->from),
-                    study.untrusted->open
-                        ? fmt::format("constraints contradict each other, those that follow from the others "
-                                      "are open by {:.2g} m",
-                                      *study.untrusted->open)
-                        : "the loops' closing turns singular, or a coordinate leaves the range for which it "
-                          "is proven (see closed loops)"));
+        fmt::format("NOT TO BE TRUSTED from t = {} on: there {} (see closed loops); no step is recommended",
+                    time_text(study.untrusted->from), study.untrusted->why));
   list.push_back(fmt::format("reference: {}; its own error is {:.1e} (difference to a looser tolerance)",
                              study.reference.method, study.reference.error));
   if (!study.loops.empty())

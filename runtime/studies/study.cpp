@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "model/coordinates.hpp"
+#include "model/loop_kinds.hpp"
 #include "studies/local_dynamics.hpp"
 #include "studies/work.hpp"
 #include "support/check.hpp"
@@ -171,6 +172,17 @@ void leave_out_useless_steps(Study& study) {
   mark_pareto_front(study.work.points);
 }
 
+/// The first of the shortest steps' ends at which some rod's length is not positive.
+std::optional<double> without_length(const model::Mechanism& mechanism, const std::vector<double>& parameters,
+                                     const Study& study) {
+  const bool any =
+      std::ranges::any_of(mechanism.loops, [](const model::Loop& loop) { return loop_kind(loop).is_bar(); });
+  for (double k = 1; any && k * study.steps.back() <= study.options.duration; ++k)
+    if (model::bar_without_length(mechanism, parameters, k * study.steps.back()))
+      return k * study.steps.back();
+  return {};
+}
+
 }  // namespace
 
 Study run_study(const model::Mechanism& mechanism, const model::Tangent& tangent,
@@ -192,6 +204,9 @@ Study run_study(const model::Mechanism& mechanism, const model::Tangent& tangent
 
   study.untrusted =
       first_untrusted(flow, study.steps.back(), study.options.duration, study.options.most_open);
+  if (const std::optional<double> from = without_length(mechanism, parameters, study);
+      from && !(study.untrusted && study.untrusted->from <= *from))
+    study.untrusted = Untrusted{*from, "the length of a rod is no longer positive"};
   study.reference = solve_reference(flow, long_flow, options.reference, sampling, wanted, options.halvings,
                                     options.seconds, progress);
   study.judged = study.reference.points.back().t - study.reference.points.front().t;

@@ -152,6 +152,59 @@ residual = "slide - 1 - 0.1*t + 1e-5*t^2"
          0, "NOT TO BE TRUSTED from t = 14.14");
 }
 
+TEST(LoopCommands, RodsThatShrinkToNothingEndARun) {
+  const support::TemporaryFolder folder;
+  const std::string path = folder.path() + "/rod.toml", csv = folder.path() + "/run.csv";
+  support::write_file(path, R"toml([model]
+name = "rod"
+[[body]]
+name = "a"
+mass = 1
+[[body]]
+name = "b"
+mass = 1
+[[joint]]
+name = "x"
+type = "prismatic"
+parent = "world"
+child = "a"
+axis = [1, 0, 0]
+[[joint]]
+name = "y"
+type = "prismatic"
+parent = "world"
+child = "b"
+axis = [1, 0, 0]
+initial_position = 0.32
+[[loop]]
+name = "bar"
+type = "rod"
+from = "a"
+to = "b"
+length = "0.32 - 0.4*t"
+)toml");
+  expect(jourdain({"simulate", path, "--duration", "0.7", "--step", "0.003", "--output", csv}), 0, "at t = ");
+  expect(jourdain({"simulate", path, "--duration", "1.5", "--step", "0.003", "--output", csv}), 1,
+         "the length of loop 'bar' is no longer positive");
+  expect(jourdain({"report", path, "--duration", "1.5", "--halvings", "2", "--methods", "rk4", "--no-plots",
+                   "--output", folder.path() + "/report"}),
+         0, "NOT TO BE TRUSTED from t = 80");
+}
+
+/// What near singular positions float leaves of the energy is no motion of the linkage.
+TEST(LoopCommands, RunsWhoseEnergyIsLostFail) {
+  const support::TemporaryFolder folder;
+  const std::vector<std::string> run = {"simulate", "models/double_pendulum.toml", "--method",  "euler",
+                                        "--output", folder.path() + "/run.csv",    "--duration"};
+  const auto over = [&](const char* duration, const char* step) {
+    std::vector<std::string> arguments = run;
+    arguments.insert(arguments.end(), {duration, "--step", step});
+    return jourdain(arguments);
+  };
+  expect(over("10", "0.01"), 1, "error: the energy, which nothing changes, drifted by");
+  expect(over("1", "1e-4"), 0, "drift");
+}
+
 TEST(LoopCommands, LoopsAreClosedAgainAtOtherParameters) {
   const support::TemporaryFolder folder;
   const std::string path = tunable_slider_crank(folder.path(), "radius = 0.045", "partitioned"),

@@ -11,7 +11,7 @@ namespace {
 using Hidden = HiddenKink::Kind;
 
 /// Of t, states p and r, an input u, coordinates x and y, and the parameters l = 0.3 and d = 0.09.
-std::optional<HiddenKink> hidden_in(const std::string& text, bool states_are_given = true) {
+std::optional<HiddenKink> hidden_in(const std::string& text) {
   const std::vector<DeclaredParameter> names{{"l", Measure::open()}, {"d", Measure::open()}};
   const std::vector<double> values{0.3, 0.09};
   const Scope scope = {{"t", {.kind = Variable::Kind::kTime}, Measure::open()},
@@ -25,31 +25,31 @@ std::optional<HiddenKink> hidden_in(const std::string& text, bool states_are_giv
     ADD_FAILURE() << text << ": " << error->message;
     return {};
   }
-  return hidden_kink(std::get<MeasuredExpression>(result).expression, values, states_are_given);
+  return hidden_kink(std::get<MeasuredExpression>(result).expression, values);
 }
 
-void expect_hidden(Hidden kind, const std::vector<std::string>& texts, bool states_are_given = true) {
+void expect_hidden(Hidden kind, const std::vector<std::string>& texts) {
   for (const std::string& text : texts) {
-    const std::optional<HiddenKink> kink = hidden_in(text, states_are_given);
+    const std::optional<HiddenKink> kink = hidden_in(text);
     ASSERT_TRUE(kink) << text;
     EXPECT_EQ(kink->kind, kind) << text << ": " << in_words(*kink);
   }
 }
 
-void expect_smooth(const std::vector<std::string>& texts, bool states_are_given = true) {
+void expect_smooth(const std::vector<std::string>& texts) {
   for (const std::string& text : texts) {
-    const std::optional<HiddenKink> kink = hidden_in(text, states_are_given);
+    const std::optional<HiddenKink> kink = hidden_in(text);
     EXPECT_FALSE(kink) << text << ": " << in_words(*kink);
   }
 }
 
 TEST(HiddenKinks, OfTheTimeAreFound) {
-  expect_hidden(
-      Hidden::kRoot,
-      {"sqrt((t - 1)^2)", "((t - 1)^2)^0.5", "pow((t - 1)^2, l)", "asin(sin(t))", "acos(cos(3*t))",
-       "0.1*asin(sin(3*t))", "sqrt(1 - cos(t)^2)", "sqrt(1 - sin(t))", "sqrt(t^2 - 2*t + 1)", "sqrt(t)",
-       "sqrt(d - (l*sin(t))^2)", "sqrt(2*t - t^2)", "sqrt(t*t)",
-       "sqrt(2 - sin(t) - cos(t)*1.0001)*0 + sqrt(1 + sin(t))", "sqrt((t - 1e6)^2)", "sqrt(tanh(t - 3)^2)"});
+  expect_hidden(Hidden::kRoot,
+                {"sqrt((t - 1)^2)", "((t - 1)^2)^0.5", "pow((t - 1)^2, l)", "asin(sin(t))", "acos(cos(3*t))",
+                 "0.1*asin(sin(3*t))", "sqrt(1 - cos(t)^2)", "sqrt(1 - sin(t))", "sqrt(t^2 - 2*t + 1)",
+                 "sqrt(t)", "sqrt(d - (l*sin(t))^2)", "sqrt(2*t - t^2)", "sqrt(t*t)",
+                 "sqrt(2 - sin(t) - cos(t)*1.0001)*0 + sqrt(1 + sin(t))", "sqrt((t - 1e6)^2)",
+                 "((t - 0.5)^2)^1.2", "t^1.5", "sqrt(tanh(t - 3)^2)"});
   expect_hidden(Hidden::kQuotient,
                 {"tan(t)", "1/(t - 2)", "1/sin(t)", "(2 - t)^-2", "1/(1 + cos(t))", "t/(t - 1e7)"});
   expect_hidden(Hidden::kAngle,
@@ -72,7 +72,7 @@ TEST(HiddenKinks, OfWhatIsSmoothAtAllTimesAreNotSuspected) {
                  "log(1 + t)",
                  "1/(2 + sin(t))",
                  "tan(l*sin(t))",
-                 "((t - 1)^2)^1.5",
+                 "((t - 1)^2)^2.5",
                  "pow(1 + t^2, l)",
                  "sqrt(2.1 + sin(t) + cos(t)*1.0001)",
                  "sqrt(1 + t*exp(-t))",
@@ -105,9 +105,34 @@ TEST(HiddenKinks, OfCoordinatesAreRootsOfSquaresAndOfWhatTouchesZero) {
                                 "sqrt(1 - sin(x + y))", "sqrt(x^2/(1 + t))", "x + sqrt((t - 1)^2)"});
   expect_hidden(Hidden::kQuotient, {"x*tan(t)", "x/(t - 1)"});
   expect_smooth({"sqrt(x^2 + y^2) - l", "sqrt(l^2 - x^2)", "y - l*tan(x)", "atan2(y, x)", "y*log(x)", "1/x",
-                 "asin(x)", "sqrt(x)", "sqrt(1 + x^2)", "pow(x^2, 1.5)", "sqrt(x^2 + t) - l"});
-  expect_hidden(Hidden::kRoot, {"sqrt(p^2)", "asin(sin(p))", "0.1*sqrt((t - 1)^2)"}, false);
-  expect_smooth({"-l*sqrt(p)", "sqrt(1 - p^2)", "1/p", "sqrt(p^2 + r^2)"}, false);
+                 "asin(x)", "sqrt(x)", "sqrt(1 + x^2)", "pow(x^2, 2.5)", "sqrt(x^2 + t) - l",
+                 "sqrt(x*(x - 1))", "atan2(x, 1 + x^2)", "atan2(l*sin(x), 1 + l*cos(x))", "acos(x)",
+                 "tanh(x)/(2 - x)", "sin(x)/x"});
+}
+
+/// Of one variable wherever they are, however they are written.
+TEST(HiddenKinks, OfOneCoordinateAreLookedFor) {
+  expect_hidden(Hidden::kRoot,
+                {"sqrt(x^2 - 2*x + 1)", "y - 0.1*sqrt(x^2 - 2*x + 1)", "sqrt(-(x - 1)*(1 - x))",
+                 "sqrt((x - l)*(-l + x))", "sqrt(1 - 2*sin(x)*cos(x))", "sqrt(x^4 - 2*x^2 + 1)",
+                 "sqrt(exp(x - l) + exp(l - x) - 2)", "(x^2)^1.5"});
+  expect_hidden(Hidden::kLogarithm, {"exp(0.5*log((x - 1)^2))"});
+  expect_hidden(Hidden::kAngle, {"atan2(sin(x), cos(x))", "y + atan2(x, x - 5)"});
+  expect_hidden(Hidden::kQuotient, {"2*atan(tan(x/2))", "atan(1/(x - 1))", "y*tanh(1/x)"});
+}
+
+TEST(HiddenKinks, OfARepeatingTableAreThoseOfItsValues) {
+  const auto wrapped = [](const std::string& inner) {
+    const std::string within = "(t - 2*floor((t - 0.5)/2))", unit = "(t - floor(t))";
+    return std::pair(inner + within, inner + unit);
+  };
+  for (const char* inner : {"1/(1 + ", "sqrt(0.1 + ", "log(0.2 + "}) {
+    const auto [of_two, of_one] = wrapped(inner);
+    EXPECT_FALSE(hidden_in(of_two + ")")) << of_two;
+    EXPECT_FALSE(hidden_in(of_one + ")")) << of_one;
+  }
+  EXPECT_TRUE(hidden_in("1/(t - 2*floor((t - 0.5)/2) - 1)"));
+  EXPECT_TRUE(hidden_in("sqrt(t - floor(t) - 0.5)"));
 }
 
 TEST(HiddenKinks, SayWhenTheTimeIsKnown) {

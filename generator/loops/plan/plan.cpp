@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "loops/closed_form/position_request.hpp"
+#include "loops/plan/constraint_domain.hpp"
 #include "loops/plan/elimination_order.hpp"
 #include "loops/plan/inertia.hpp"
 #include "loops/plan/partition.hpp"
@@ -192,6 +193,7 @@ class Planner {
     const std::optional<Partition> partition = partition_of_velocities();
     if (!options.independent.empty() && !partition) return report_bad({});
     std::string why = why_not_reduced(constraints_, plan_.rows, partition, mechanism_);
+    if (why.empty()) why = why_undefined(mechanism_, true);
     if (why.empty()) {
       take(*partition);
       plan_.reason.clear();
@@ -259,6 +261,7 @@ class Planner {
 
   /// Why there is no proof for the choice taken; empty where there is one.
   std::string prove() {
+    if (std::string why = why_undefined(mechanism_, false); !why.empty()) return why;
     const auto found = prove_regular(regularity_request(mechanism_, constraints_, plan_));
     if (const auto* why = std::get_if<std::string>(&found)) return *why;
     plan_.proof = std::get<RegularityProof>(found);
@@ -314,6 +317,7 @@ class Planner {
   }
 
   std::variant<ClosedForm, std::string> solve_positions() const {
+    if (std::string why = why_undefined(mechanism_, true); !why.empty()) return why;
     auto request = position_request(mechanism_, constraints_, plan_);
     if (auto* failure = std::get_if<std::string>(&request)) return std::move(*failure);
     auto& positions = std::get<ClosedFormRequest>(request);

@@ -91,7 +91,7 @@ class MotionCheck {
     if (state.rate.has_kinks())
       return refuse(coordinate, follows + "may have a kink",
                     "its acceleration would jump; smooth_step, smooth_max and tanh have none");
-    if (const std::optional<HiddenKink> kink = hidden_kink(state.rate, parameters_, false))
+    if (const std::optional<HiddenKink> kink = hidden_kink(state.rate, parameters_))
       return refuse(coordinate, follows + "may have a kink or a pole: " + in_words(*kink), hint_of(*kink));
     return true;
   }

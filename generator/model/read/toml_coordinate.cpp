@@ -117,7 +117,7 @@ void refuse_kinks(TomlFile& file, const TomlTable& table, std::string_view key,
 
 void refuse_hidden_kinks(TomlFile& file, const TomlTable& table, std::string_view key,
                          const Expression& function) {
-  if (const std::optional<HiddenKink> kink = hidden_kink(function, file.values(), true))
+  if (const std::optional<HiddenKink> kink = hidden_kink(function, file.values()))
     table.error(key,
                 fmt::format("{} may have a kink or a pole, where velocities or accelerations jump: {}",
                             table.quoted(key), in_words(*kink)),

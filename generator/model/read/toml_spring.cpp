@@ -1,12 +1,16 @@
 // [[spring]]
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "model/expression_functions.hpp"
 #include "model/expression_sums.hpp"
 #include "model/read/keys.hpp"
 #include "model/read/toml_frame.hpp"
 #include "model/read/toml_names.hpp"
 #include "model/read/toml_sections.hpp"
+#include "model/taylor.hpp"
 
 namespace jourdain::model {
 
@@ -34,14 +38,50 @@ void make_one_sided(Spring& spring, bool pulls) {
   const Expression force =
       where_less(0.0, stretch, false, Expression::function(support::Function::kMax, both, 0.0), 0.0);
   const Expression taut = Expression::function(support::Function::kMax, stretch, 0.0);
-  const bool conserves = spring.damping.is_zero() && (spring.law.is_zero() || spring.potential);
-  if (conserves)
+  if (spring.conserves_energy())
     spring.potential =
         plus(spring.potential.value_or(0.0), times(times(0.5, spring.stiffness), times(taut, taut)));
   else
     spring.potential.reset();
   spring.law = pulls ? plus(spring.law, force) : minus(spring.law, force);
   spring.stiffness = spring.damping = 0.0;
+}
+
+Taylor<double> at_length(const TomlFile& file, const Expression& function, double length) {
+  std::vector<Taylor<double>> parameters;
+  for (const double value : file.values()) parameters.push_back({value, 0, 0});
+  return function.evaluate<Taylor<double>>(
+      parameters,
+      [](double v) {
+        return Taylor<double>{v, 0, 0};
+      },
+      [length](const Variable& variable) {
+        return variable.component == 0 ? Taylor<double>{length, 1, 0} : Taylor<double>{0, 0, 0};
+      });
+}
+
+/// The slope of the potential is the tension at rest; looked at from short lengths to long ones.
+void check_potential(TomlFile& file, const TomlTable& table, const Spring& spring) {
+  constexpr double kShortest = 0.0137, kLongest = 100, kRatio = 1.37, kShare = 1e-3;
+  double largest = 0, worst = 0, where = 0, slope_there = 0, pull_there = 0;
+  for (double length = kShortest; length < kLongest; length *= kRatio) {
+    const double slope = at_length(file, *spring.potential, length).first,
+                 pull = at_length(file, spring.law, length).value;
+    if (!std::isfinite(slope) || !std::isfinite(pull)) continue;
+    const double size = std::max(std::fabs(slope), std::fabs(pull)), off = std::fabs(slope - pull);
+    largest = std::max(largest, size);
+    if (!(off > kShare * size) || !(off > worst)) continue;
+    worst = off;
+    where = length;
+    slope_there = slope;
+    pull_there = pull;
+  }
+  if (worst > kShare * kShare * largest)
+    table.error("potential",
+                fmt::format("{} is not that of the law: at a length of {:.3g} m it rises by {:.6g} N, the "
+                            "law pulls with {:.6g} N",
+                            table.quoted("potential"), where, slope_there, pull_there),
+                "its derivative by length is the law at rest");
 }
 
 }  // namespace
@@ -55,12 +95,17 @@ void read_springs(TomlFile& file, const TomlTables& section, Mechanism& mechanis
                           file.range(node.source()), keys_of("spring"));
     const auto ends = find_ends(file, table, mechanism);
     spring.where = table.where("from");
+    const std::size_t mark = file.error_count();
     spring.stiffness = table.number("stiffness", needed::kStiffness);
     spring.damping = table.number("damping", needed::kDamping);
     spring.free_length = table.number("free_length", needed::kLength);
     spring.law = table.function("law", needed::kForce, spring_scope(true));
-    if (table.has("potential"))
+    if (table.has("potential")) {
       spring.potential = table.function("potential", needed::kEnergy, spring_scope(false));
+      const bool is_known =
+          !spring.law.calls(support::Function::kCall) && !spring.potential->calls(support::Function::kCall);
+      if (file.error_count() == mark && is_known) check_potential(file, table, spring);
+    }
     const std::optional<std::size_t> acts = table.choice("acts", {"both ways", "pulling", "pushing"});
     if (acts.value_or(0) != 0 && !table.has("stiffness"))
       table.error("acts", fmt::format("{} has no 'stiffness'", table.what()),
