@@ -22,7 +22,8 @@
 // - frame forces: none
 // - outputs: none asked for
 // - functions not asked for: residual, residual_derivatives, forward_dynamics_derivatives, linearize,
-//   euler_step, semi_implicit_euler_step, heun_step, rk5_step, adams_bashforth2_step, adams_bashforth3_step
+//   euler_step, semi_implicit_euler_step, heun_step, rk5_step, adams_bashforth2_step, adams_bashforth3_step,
+//   linearly_implicit_euler_step, ros34pw2_step, rosw43_step
 // Checked before this file was written
 // - validated at 8 states: in 77 digits everything below agrees to 1e-40 of its scale (what rounding can move
 //   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 2.4e-16 of the

@@ -81,7 +81,7 @@ class Search {
       if (!kind || !enclosure_.is_moved(i) || !is_suspect(i)) continue;
       std::optional<HiddenKink> kink;
       if (given[node.op == Op::kDivide ? node.right : i] != 0)
-        kink = found(i, [](const Part&, bool) { return true; });
+        kink = found_before_end(i);
       else if (*kind == Hidden::kRoot && has_square(node.left))
         kink = HiddenKink{*kind};
       else if (enclosure_.part_of(i).dimensions.size() == 1)
@@ -135,6 +135,31 @@ class Search {
           return is_one(part, is_small);
         });
     return is_found ? std::optional(kink) : std::nullopt;
+  }
+
+  /// Nothing where what is first found, as boxes of earlier times come first, is the end: no value is real from there
+  /// on, which no run passes in silence.
+  std::optional<HiddenKink> found_before_end(std::size_t i) {
+    bool ends = false;
+    const std::optional<HiddenKink> kink = found(i, [&](const Part& part, bool is_small) {
+      ends = is_small && ends_behind(i, part);
+      return true;
+    });
+    return ends ? std::nullopt : kink;
+  }
+
+  /// Whether a root or a logarithm is of negative numbers at all later times than those of the box evaluated last.
+  bool ends_behind(std::size_t i, const Part& part) {
+    const Hidden kind = *hidden_kind_of(nodes_[i]);
+    if ((kind != Hidden::kRoot && kind != Hidden::kLogarithm) || !time_in(part)) return false;
+    Interval& side = enclosure_.dimension(part.dimensions[0]).side;
+    const Interval box = side;
+    side = {box.high + kNearby * std::max(1.0, box.high), kMostTime};
+    enclosure_.evaluate(part);
+    const bool is_negative = enclosure_.value(nodes_[i].left).high < 0;
+    side = box;
+    enclosure_.evaluate(part);
+    return is_negative;
   }
 
   /// Where the time is all that it depends on.

@@ -418,7 +418,7 @@ TEST(LoopCommands, ReportsSayWhereLoopsTurnSingularAndRecommendNothing) {
       jourdain({"report", left_to_the_tool, "--duration", "1s", "--methods", "rk4", "--longest-step", "4ms",
                 "--halvings", "2", "--tolerance", "1e-6", "-o", folder.path()});
   expect(result, 0, "NOT TO BE TRUSTED from t = 7");
-  expect(result, 0, "no recommendation, the loops turn singular");
+  expect(result, 0, "no recommendation, the loops' closing turns singular");
 }
 #endif
 

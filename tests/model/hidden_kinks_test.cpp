@@ -44,12 +44,26 @@ void expect_smooth(const std::vector<std::string>& texts) {
 }
 
 TEST(HiddenKinks, OfTheTimeAreFound) {
-  expect_hidden(Hidden::kRoot,
-                {"sqrt((t - 1)^2)", "((t - 1)^2)^0.5", "pow((t - 1)^2, l)", "asin(sin(t))", "acos(cos(3*t))",
-                 "0.1*asin(sin(3*t))", "sqrt(1 - cos(t)^2)", "sqrt(1 - sin(t))", "sqrt(t^2 - 2*t + 1)",
-                 "sqrt(t)", "sqrt(d - (l*sin(t))^2)", "sqrt(2*t - t^2)", "sqrt(t*t)",
-                 "sqrt(2 - sin(t) - cos(t)*1.0001)*0 + sqrt(1 + sin(t))", "sqrt((t - 1e6)^2)",
-                 "((t - 0.5)^2)^1.2", "t^1.5", "sqrt(tanh(t - 3)^2)"});
+  expect_hidden(Hidden::kRoot, {"sqrt((t - 1)^2)",
+                                "((t - 1)^2)^0.5",
+                                "pow((t - 1)^2, l)",
+                                "asin(sin(t))",
+                                "acos(cos(3*t))",
+                                "0.1*asin(sin(3*t))",
+                                "sqrt(1 - cos(t)^2)",
+                                "sqrt(1 - sin(t))",
+                                "sqrt(t^2 - 2*t + 1)",
+                                "sqrt(t)",
+                                "sqrt(d - (l*sin(t))^2)",
+                                "sqrt(2*t - t^2)",
+                                "sqrt((t - 1)*(t - 2))",
+                                "sqrt((t - 1)^2 - 1e-12)",
+                                "sqrt(t*t)",
+                                "sqrt(2 - sin(t) - cos(t)*1.0001)*0 + sqrt(1 + sin(t))",
+                                "sqrt((t - 1e6)^2)",
+                                "((t - 0.5)^2)^1.2",
+                                "t^1.5",
+                                "sqrt(tanh(t - 3)^2)"});
   expect_hidden(Hidden::kQuotient,
                 {"tan(t)", "1/(t - 2)", "1/sin(t)", "(2 - t)^-2", "1/(1 + cos(t))", "t/(t - 1e7)"});
   expect_hidden(Hidden::kAngle,
@@ -86,6 +100,12 @@ TEST(HiddenKinks, OfWhatIsSmoothAtAllTimesAreNotSuspected) {
                  "smooth_max(t, 1, 0.01)",
                  "smooth_sign(sin(t), 0.01)",
                  "t + atan2((l - 1)*sin(t)*cos(t), cos(t)^2 + l*sin(t)^2)"});
+}
+
+/// From then on there is no value, and no run goes on.
+TEST(HiddenKinks, OfATimeAtWhichAMotionEndsAreNone) {
+  expect_smooth({"sqrt(0.3 - t)", "asin(t)", "log(2 - t)", "(1 - t^3)^1.5"});
+  expect_hidden(Hidden::kQuotient, {"1/(0.3 - t)"});
 }
 
 /// Anything that they are is said to be possible.
