@@ -177,9 +177,10 @@ std::optional<double> without_length(const model::Mechanism& mechanism, const st
                                      const Study& study) {
   const bool any =
       std::ranges::any_of(mechanism.loops, [](const model::Loop& loop) { return loop_kind(loop).is_bar(); });
-  for (double k = 1; any && k * study.steps.back() <= study.options.duration; ++k)
-    if (model::bar_without_length(mechanism, parameters, k * study.steps.back()))
-      return k * study.steps.back();
+  const double h = study.steps.back();
+  for (long k = 1; any && static_cast<double>(k) * h <= study.options.duration; ++k)
+    if (model::bar_without_length(mechanism, parameters, static_cast<double>(k) * h))
+      return static_cast<double>(k) * h;
   return {};
 }
 

@@ -62,9 +62,11 @@ Taylor<double> at_length(const TomlFile& file, const Expression& function, doubl
 
 /// The slope of the potential is the tension at rest; looked at from short lengths to long ones.
 void check_potential(TomlFile& file, const TomlTable& table, const Spring& spring) {
-  constexpr double kShortest = 0.0137, kLongest = 100, kRatio = 1.37, kShare = 1e-3;
+  constexpr double kShortest = 0.0137, kRatio = 1.37, kShare = 1e-3;
+  constexpr int kLengths = 29;  // up to 92 m
   double largest = 0, worst = 0, where = 0, slope_there = 0, pull_there = 0;
-  for (double length = kShortest; length < kLongest; length *= kRatio) {
+  for (int k = 0; k < kLengths; ++k) {
+    const double length = kShortest * std::pow(kRatio, k);
     const double slope = at_length(file, *spring.potential, length).first,
                  pull = at_length(file, spring.law, length).value;
     if (!std::isfinite(slope) || !std::isfinite(pull)) continue;
