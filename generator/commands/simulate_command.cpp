@@ -176,8 +176,7 @@ std::string drift_text(const Trajectory& result, const SimulateArguments& argume
   if (steps < kFewSteps || !(result.largest_drift > kShare * result.largest_kinetic)) return "";
   return fmt::format(
       "the energy, which nothing changes, drifted by {:.2g} J, of motion there were {:.2g} J at most: this "
-      "is not the "
-      "motion of the mechanism; steps of {:g} s may be too long{}",
+      "is not the motion of the mechanism; steps of {:g} s may be too long{}",
       result.largest_drift, result.largest_kinetic, arguments.step,
       arguments.run.real == "float" ? ", or float too coarse, as near singular positions" : "");
 }

@@ -113,14 +113,12 @@ Expression Expression::composed(std::span<const Expression> operands, const std:
 
 bool Expression::has_undefined_part(std::span<const double> parameters) const {
   std::vector<Node> known = nodes_;
-  std::vector<bool> moves;
-  for (Node& node : known) {
-    const int operands = operand_count(node);
-    moves.push_back(node.op == Op::kVariable || (operands >= 1 && moves[node.left]) ||
-                    (operands == 2 && moves[node.right]));
-    if (moves.back()) continue;
+  const std::vector<bool> moves = moved_by_variables(nodes_);
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    Node& node = known[i];
+    if (moves[i]) continue;
     if (node.op == Op::kParameter) node.value = parameters[node.parameter.value];
-    if (operands > 0) node.value = folded(known, node);
+    if (operand_count(node) > 0) node.value = folded(known, node);
     if (!std::isfinite(node.value)) return true;
   }
   return false;
@@ -139,14 +137,10 @@ std::size_t Expression::written_out_size() const {
 }
 
 bool Expression::has_kinks() const {
-  std::vector<char> moves;
-  for (const Node& node : nodes_) {
-    const int operands = operand_count(node);
-    moves.push_back(node.op == Op::kVariable || (operands >= 1 && moves[node.left] != 0) ||
-                    (operands == 2 && moves[node.right] != 0));
-    if (moves.back() != 0 && node.op == Op::kFunction && support::facts_of(node.function).has_kinks)
+  const std::vector<bool> moves = moved_by_variables(nodes_);
+  for (std::size_t i = 0; i < nodes_.size(); ++i)
+    if (moves[i] && nodes_[i].op == Op::kFunction && support::facts_of(nodes_[i].function).has_kinks)
       return true;
-  }
   return false;
 }
 

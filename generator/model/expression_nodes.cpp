@@ -17,6 +17,16 @@ int operand_count(const Node& node) {
   return op == Op::kAdd || op == Op::kSubtract || op == Op::kMultiply || op == Op::kDivide ? 2 : 1;
 }
 
+std::vector<bool> moved_by_variables(const std::vector<Expression::Node>& nodes) {
+  std::vector<bool> moved;
+  for (const Expression::Node& node : nodes) {
+    const int operands = operand_count(node);
+    moved.push_back(node.op == Expression::Op::kVariable || (operands >= 1 && moved[node.left]) ||
+                    (operands == 2 && moved[node.right]));
+  }
+  return moved;
+}
+
 double folded(const std::vector<Node>& nodes, const Node& operation) {
   const auto value = [&](std::size_t i) { return nodes[i].value; };
   switch (operation.op) {

@@ -11,6 +11,9 @@ namespace jourdain::model {
 
 int operand_count(const Expression::Node& node);
 
+/// By node, whether it depends on a variable.
+std::vector<bool> moved_by_variables(const std::vector<Expression::Node>& nodes);
+
 /// The value of an operation on literals among `nodes`.
 double folded(const std::vector<Expression::Node>& nodes, const Expression::Node& operation);
 

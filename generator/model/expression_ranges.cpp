@@ -42,15 +42,12 @@ Interval power(Interval base, int exponent) {
 }  // namespace
 
 ExpressionEnclosure::ExpressionEnclosure(const Expression& expression, const ExpressionRanges& ranges)
-    : nodes_(expression.nodes()), parameters_(ranges.parameters) {
+    : nodes_(expression.nodes()), parameters_(ranges.parameters), is_moved_(moved_by_variables(nodes_)) {
   for (std::size_t i = 0; i < nodes_.size(); ++i) add(i, ranges);
 }
 
 void ExpressionEnclosure::add(std::size_t i, const ExpressionRanges& ranges) {
   const Node& node = nodes_[i];
-  const int operands = operand_count(node);
-  is_moved_.push_back(node.op == Op::kVariable || (operands >= 1 && is_moved_[node.left] != 0) ||
-                      (operands == 2 && is_moved_[node.right] != 0));
   values_.emplace_back();
   dimension_.push_back(kNone);
   const std::optional<Interval> own =
@@ -163,6 +160,10 @@ ExpressionEnclosure::Part ExpressionEnclosure::part_of(std::size_t i) const {
 
 void ExpressionEnclosure::evaluate(const Part& part) {
   for (const std::size_t n : part.nodes) values_[n] = enclosed(n);
+}
+
+void ExpressionEnclosure::evaluate_all() {
+  for (std::size_t n = 0; n < nodes_.size(); ++n) values_[n] = enclosed(n);
 }
 
 double ExpressionEnclosure::side_of(std::size_t d) const {

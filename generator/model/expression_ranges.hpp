@@ -44,18 +44,19 @@ class ExpressionEnclosure {
 
   const std::vector<Node>& nodes() const { return nodes_; }
   /// Whether the node depends on a variable.
-  bool is_moved(std::size_t i) const { return is_moved_[i] != 0; }
+  bool is_moved(std::size_t i) const { return is_moved_[i]; }
   /// Over the box that was evaluated last.
   support::Interval value(std::size_t i) const { return values_[i]; }
   Part part_of(std::size_t i) const;
   void evaluate(const Part& part);
+  void evaluate_all();
   Dimension& dimension(std::size_t d) { return dimensions_[d]; }
   const Dimension& dimension(std::size_t d) const { return dimensions_[d]; }
   /// Of a turn, of where it is, or of 1.
   double side_of(std::size_t d) const;
 
   /// Divides the box of `part` wherever `is_suspect()` holds of it, and calls `is_one(is_small)` where it is small, or
-  /// where that has taken too long; true where one of these is, at once.
+  /// where that has taken too long; true where one of these is, at once. Values are those of the whole box afterwards.
   template <class IsSuspect, class IsOne>
   bool any(const Part& part, const IsSuspect& is_suspect, const IsOne& is_one);
 
@@ -73,7 +74,7 @@ class ExpressionEnclosure {
 
   const std::vector<Node>& nodes_;
   std::vector<support::Interval> parameters_;
-  std::vector<char> is_moved_;
+  std::vector<bool> is_moved_;
   std::vector<std::size_t> dimension_;  ///< by node
   std::vector<Dimension> dimensions_;
   std::vector<support::Interval> values_;  ///< by node
@@ -107,7 +108,7 @@ bool ExpressionEnclosure::any(const Part& part, const IsSuspect& is_suspect, con
     boxes.push_back(dimensions_);
   }
   dimensions_ = whole;
-  evaluate(part);
+  evaluate_all();  // what is asked of a small box may have looked at more than its part
   return found;
 }
 

@@ -23,7 +23,8 @@ struct HiddenKink {
 };
 
 /// The first part of the expression for which it cannot be proven by interval arithmetic, at these parameters, that
-/// there is none for all times from 0 to 1e9 s and all values of states and inputs up to 1e30 in SI units. Of
+/// there is none for all times from 0 to 1e9 s, or up to where roots and logarithms of the time have no value any more,
+/// and all values of states and inputs up to 1e30 in SI units. Of
 /// coordinates, frames and arguments, which need not come to where there is one, only what is surely one: a root of a
 /// square; of what has one variable a root, or a logarithm, of what touches zero, an angle that passes π, and a pole
 /// that what follows from it hides.

@@ -3,8 +3,8 @@
 
 #include <set>
 
+#include "model/expression_taylor.hpp"
 #include "model/mechanism.hpp"
-#include "model/taylor.hpp"
 
 namespace jourdain::model {
 
@@ -29,18 +29,11 @@ bool motions_take_inputs(const Mechanism& mechanism);
 template <class Scalar, class Leaf>
 Taylor<Scalar> motion_taylor(const Expression& motion, const std::vector<StateVariable>& states,
                              std::span<const Scalar> parameters, const Leaf& leaf) {
-  std::vector<Taylor<Scalar>> constants;
-  for (const Scalar& parameter : parameters) constants.push_back({parameter, Scalar(0), Scalar(0)});
   const auto along = [&](const Expression& expression, const auto& of_state) {
-    return expression.evaluate<Taylor<Scalar>>(
-        constants,
-        [](double v) {
-          return Taylor<Scalar>{Scalar(v), Scalar(0), Scalar(0)};
-        },
-        [&](const Variable& v) -> Taylor<Scalar> {
-          if (v.kind == Variable::Kind::kState) return of_state(v);
-          return {leaf(v), Scalar(v.kind == Variable::Kind::kTime ? 1 : 0), Scalar(0)};
-        });
+    return taylor_of<Scalar>(expression, parameters, [&](const Variable& v) -> Taylor<Scalar> {
+      if (v.kind == Variable::Kind::kState) return of_state(v);
+      return {leaf(v), Scalar(v.kind == Variable::Kind::kTime ? 1 : 0), Scalar(0)};
+    });
   };
   const auto value = [&](const Expression& expression) {
     return expression.evaluate<Scalar>(

@@ -107,11 +107,10 @@ std::vector<std::string> stability_remarks(const jourdain_model_table& table, co
   if (!unpredicted.empty())
     list.push_back(fmt::format(
         "no prediction for {}: no mode limits them, or it grows, is neither thirty times faster than the "
-        "motion "
-        "nor stays as it is, or allows more than a quarter of the time, or is of positions after velocities "
-        "of which constraints bind some, or the method leaves out derivatives of what is carried along; "
-        "observed of them are runs from the "
-        "start over the whole time, until a velocity is ten times the largest of the reference",
+        "motion nor stays as it is, or allows more than a quarter of the time, or is of positions after "
+        "velocities of which constraints bind some, or the method leaves out derivatives of what is carried "
+        "along; observed of them are runs from the start over the whole time, until a velocity is ten times "
+        "the largest of the reference",
         unpredicted));
   if (s.transient_growth > kTransient)
     list.push_back(

@@ -41,6 +41,13 @@ void missing_forces(const Model& model, const State& state, const Input& input, 
   inverse_dynamics(model, state, input, zdot, tau);
 }
 
+// Whether there is one.
+template <class Model, class State, class Array>
+auto rate_of(const Model& model, const State& state, Array& ydot, int)
+    -> decltype(position_rate(model, state, ydot), bool()) { position_rate(model, state, ydot); return true; }
+template <class Model, class State, class Array>
+bool rate_of(const Model&, const State&, Array&, long) { return false; }
+
 template <class Model>
 void evaluate(const Model& model, double t, const double* y, const double* z, const double* u, const double* zdot,
               double h, double* out) {
@@ -77,10 +84,9 @@ void evaluate(const Model& model, double t, const double* y, const double* z, co
   }
   *out++ = static_cast<double>(kinetic_energy(model, state));
   *out++ = static_cast<double>(potential_energy(model, state));
-  if constexpr (ny != nz) {
-    Real ydot[ny];
-    position_rate(model, state, ydot);
-    write(ydot);
+  if constexpr (ny > 0) {
+    Real ydot[ny] = {};
+    if (rate_of(model, state, ydot, 0)) write(ydot);
   }
   if constexpr (Model::output_count > 0) {
     typename Model::Outputs results;
@@ -136,7 +142,8 @@ EmittedModel emit_model(const Derived& derived, const std::string& name) {
                      compiled.files,
                      {},
                      derived.equations.initial_position.size(),
-                     derived.equations.initial_velocity.size()};
+                     derived.equations.initial_velocity.size(),
+                     compiled.facts.has_rate()};
   for (const auto& output : derived.equations.outputs)
     for (const dynamics::OutputValues& member : output) model.outputs += member.values.size();
   for (const model::Parameter& parameter : derived.mechanism.parameters)
@@ -202,7 +209,7 @@ Evaluation CompiledBatch::evaluate(std::size_t index, const Sample& sample, doub
   e.tau = take(n);
   e.kinetic = *at++;
   e.potential = *at++;
-  if (ny != n) e.ydot = take(ny);
+  if (model.has_rate) e.ydot = take(ny);
   e.outputs = take(model.outputs);
   e.y_next = take(ny);
   e.z_next = take(n);

@@ -17,6 +17,7 @@ struct EmittedModel {
   std::vector<emit::File> files;
   std::vector<std::string> parameters;  ///< names in order
   std::size_t positions = 0, velocities = 0;
+  bool has_rate = false;    ///< dy/dt is not z
   std::size_t outputs = 0;  ///< numbers in Outputs
 };
 

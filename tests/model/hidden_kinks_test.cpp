@@ -141,6 +141,12 @@ TEST(HiddenKinks, OfOneCoordinateAreLookedFor) {
   expect_hidden(Hidden::kQuotient, {"2*atan(tan(x/2))", "atan(1/(x - 1))", "y*tanh(1/x)"});
 }
 
+/// What is looked at near a pole is looked at again where the rest is judged.
+TEST(HiddenKinks, BesideAVisiblePoleAreFound) {
+  expect_smooth({"exp(1/(x - 2))"});
+  expect_hidden(Hidden::kRoot, {"exp((x - 1)*(1/(x - 2))) + sqrt((x - 1)^2*(1 + y^2))"});
+}
+
 TEST(HiddenKinks, OfARepeatingTableAreThoseOfItsValues) {
   const auto wrapped = [](const std::string& inner) {
     const std::string within = "(t - 2*floor((t - 0.5)/2))", unit = "(t - floor(t))";

@@ -71,6 +71,31 @@ TEST(RollingSteps, StiffDrivesDoNotLimitWMethodsWithWhatIsCarriedAlong) {
   EXPECT_FALSE(std::fabs(lost.z[2]) < 1e3);
 }
 
+/// As the page of loops says: 65 ms over a second, until a velocity is ten times the largest of the motion.
+TEST(RollingSteps, StepsOfWMethodsHoldFarBeyondTheStiffDrive) {
+  using namespace tethered_robot_all;
+  Parameters<double> parameters;
+  parameters.drag = 20;
+  const Model<double> model(parameters);
+  const auto fastest = [&](int steps, double h, const auto& step) {
+    auto state = initial_state(model);
+    Accelerations<double> accelerations;
+    const Input<double> input;
+    double largest = 0;
+    for (int i = 0; i < steps; ++i) {
+      step(model, state, input, h, accelerations);
+      for (const double z : state.z) largest = std::isfinite(z) ? std::max(largest, std::fabs(z)) : INFINITY;
+    }
+    return largest;
+  };
+  const double usual = fastest(10000, 1e-4, [](auto& of, auto& state, const auto& input, double h, auto&) {
+    rk4_step(of, state, input, h);
+  });
+  EXPECT_LE(fastest(15, 0.065, [](auto&... a) { linearly_implicit_euler_step(a...); }), 10 * usual);
+  EXPECT_LE(fastest(15, 0.065, [](auto&... a) { ros34pw2_step(a...); }), 10 * usual);
+  EXPECT_LE(fastest(15, 0.065, [](auto&... a) { rosw43_step(a...); }), 10 * usual);
+}
+
 /// With v forward and w: v^2 + k w^2 = V^2, k = (I + m d^2)/m, and v = V tanh(c (t - t0)), w = V sech(...)/sqrt(k),
 /// c = d V/k: it ends up straight.
 TEST(RollingSteps, SleighFollowsItsClosedForm) {

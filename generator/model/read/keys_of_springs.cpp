@@ -3,23 +3,25 @@
 namespace jourdain::model {
 
 KeySection spring_section() {
-  return {"spring",
-          "[[spring]]",
-          "A spring and damper that pulls the origins of two frames together.",
-          {{"name", "text", "", "its number", "for messages"},
-           {"from", "name", "", kRequired, "a frame"},
-           {"to", "name", "", kRequired, "a frame on another body"},
-           {"stiffness", "number", "N/m", "0", ""},
-           {"damping", "number", "N s/m", "0", ""},
-           {"free_length", "number", "m", "0", ""},
-           {"acts", "\"both ways\", \"pulling\", \"pushing\"", "", "\"both ways\"",
-            "stiffness and damping: pulling, a rope, never push, max(k e + c e', 0) at a stretch e; pushing, "
-            "a gap, "
-            "never pull"},
-           {"law", "expression", "N", "0", "added; of length (m) and rate (m/s)"},
-           {"potential", "expression", "J", "none",
-            "of the law, of length; without it the scene counts as losing energy"}},
-          R"([[spring]]
+  return {
+      "spring",
+      "[[spring]]",
+      "A spring and damper that pulls the origins of two frames together.",
+      {{"name", "text", "", "its number", "for messages"},
+       {"from", "name", "", kRequired, "a frame"},
+       {"to", "name", "", kRequired, "a frame on another body"},
+       {"stiffness", "number", "N/m", "0", ""},
+       {"damping", "number", "N s/m", "0", ""},
+       {"free_length", "number", "m", "0", ""},
+       {"acts", "\"both ways\", \"pulling\", \"pushing\"", "", "\"both ways\"",
+        "stiffness and damping: pulling, a rope, never push, max(k e + c e', 0) at a stretch e; pushing, "
+        "a gap, "
+        "never pull"},
+       {"law", "expression", "N", "0", "added; of length (m) and rate (m/s)"},
+       {"potential", "expression", "J", "none",
+        "of the law, of length: its slope is the law at rest; without it, or where the law names rate, the "
+        "scene counts as losing energy"}},
+      R"([[spring]]
 from = "cover"
 to = "piston_body"
 stiffness = 200

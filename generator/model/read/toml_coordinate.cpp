@@ -3,12 +3,12 @@
 
 #include <cmath>
 
+#include "model/expression_taylor.hpp"
 #include "model/hidden_kinks.hpp"
 #include "model/joint_kinds.hpp"
 #include "model/motion_sources.hpp"
 #include "model/read/toml_names.hpp"
 #include "model/read/toml_sections.hpp"
-#include "model/taylor.hpp"
 
 namespace jourdain::model {
 
@@ -17,16 +17,9 @@ namespace {
 /// "velocity", the first one that is not, or nothing; nothing of states and functions that are not known yet.
 const char* not_finite_at_start(const TomlFile& file, const Expression& function) {
   if (function.calls(support::Function::kCall) || !states_in(function).empty()) return nullptr;
-  std::vector<Taylor<double>> parameters;
-  for (const double value : file.values()) parameters.push_back({value, 0, 0});
-  const auto at_start = function.evaluate<Taylor<double>>(
-      parameters,
-      [](double v) {
-        return Taylor<double>{v, 0, 0};
-      },
-      [](const Variable&) {
-        return Taylor<double>{0, 1, 0};
-      });
+  const auto at_start = taylor_of<double>(function, file.values(), [](const Variable&) {
+    return Taylor<double>{0, 1, 0};
+  });
   return !std::isfinite(at_start.value)    ? "value"
          : !std::isfinite(at_start.first)  ? "velocity"
          : !std::isfinite(at_start.second) ? "acceleration"

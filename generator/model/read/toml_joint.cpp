@@ -5,11 +5,11 @@
 #include <array>
 #include <cmath>
 
+#include "model/expression_taylor.hpp"
 #include "model/joint_kinds.hpp"
 #include "model/read/keys.hpp"
 #include "model/read/toml_names.hpp"
 #include "model/read/toml_sections.hpp"
-#include "model/taylor.hpp"
 
 namespace jourdain::model {
 
@@ -215,19 +215,12 @@ class JointReader {
       is_known = is_known && !joint.curve[k].calls(support::Function::kCall);
     }
     if (!is_known) return;
-    std::vector<Taylor<double>> parameters;
-    for (const double value : file_.values()) parameters.push_back({value, 0, 0});
     const double start = file_.value(joint.coordinates[0].initial_position);
     double speed = 0;
     for (const Expression& component : joint.curve) {
-      const auto at = component.evaluate<Taylor<double>>(
-          parameters,
-          [](double v) {
-            return Taylor<double>{v, 0, 0};
-          },
-          [start](const Variable&) {
-            return Taylor<double>{start, 1, 0};
-          });
+      const auto at = taylor_of<double>(component, file_.values(), [start](const Variable&) {
+        return Taylor<double>{start, 1, 0};
+      });
       speed = std::hypot(speed, at.first);
     }
     if (!(speed > 0) || !std::isfinite(speed))

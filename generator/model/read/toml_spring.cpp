@@ -6,11 +6,11 @@
 
 #include "model/expression_functions.hpp"
 #include "model/expression_sums.hpp"
+#include "model/expression_taylor.hpp"
 #include "model/read/keys.hpp"
 #include "model/read/toml_frame.hpp"
 #include "model/read/toml_names.hpp"
 #include "model/read/toml_sections.hpp"
-#include "model/taylor.hpp"
 
 namespace jourdain::model {
 
@@ -48,16 +48,9 @@ void make_one_sided(Spring& spring, bool pulls) {
 }
 
 Taylor<double> at_length(const TomlFile& file, const Expression& function, double length) {
-  std::vector<Taylor<double>> parameters;
-  for (const double value : file.values()) parameters.push_back({value, 0, 0});
-  return function.evaluate<Taylor<double>>(
-      parameters,
-      [](double v) {
-        return Taylor<double>{v, 0, 0};
-      },
-      [length](const Variable& variable) {
-        return variable.component == 0 ? Taylor<double>{length, 1, 0} : Taylor<double>{0, 0, 0};
-      });
+  return taylor_of<double>(function, file.values(), [length](const Variable& variable) {
+    return variable.component == 0 ? Taylor<double>{length, 1, 0} : Taylor<double>{0, 0, 0};
+  });
 }
 
 /// The slope of the potential is the tension at rest; looked at from short lengths to long ones.
