@@ -210,7 +210,7 @@ Model<Real>::Model(const Parameters& parameters) noexcept {
   const Real S_xz = mr_x * Real(0.7) + Real(0.00756);
   const Real h_y = Real(0.8652475842498527) - Real(0.9510565162951535) * mr_x;
   const Real h_z_2 = Real(0.3090169943749474) * mr_x + Real(2.66295824562643);
-  const Real mr_z_2 = d_steer * Real(4.0);
+  const Real mr_z = d_steer * Real(4.0);
   const Real t41 = Real(0.3090169943749474) * S_xz;
   const Real SR_y = t41 - Real(0.9510565162951535) * S_xx;
   const Real t45 = Real(0.9510565162951535) * S_xz;
@@ -218,53 +218,53 @@ Model<Real>::Model(const Parameters& parameters) noexcept {
   const Real SR_y_2 = t45 - Real(0.6229535393003439);
   const Real SR_z_3 = t41 + Real(1.9172538523297258);
   const Real mr_y = r_front_y * Real(3.0);
-  const Real mr_z_3 = r_front_z * Real(3.0);
+  const Real mr_z_2 = r_front_z * Real(3.0);
   const Real S_yy = r_front_y * mr_y;
   const Real S_yz = r_front_z * mr_y;
-  const Real S_zz = r_front_z * mr_z_3;
+  const Real S_zz = r_front_z * mr_z_2;
   front_h_y = h_y + mr_y;
-  const Real front_h_z = mr_z_2 - (h_z_2 + mr_z_3);
+  const Real front_h_z = mr_z - (h_z_2 + mr_z_2);
   front_S_yz = Real(0.9510565162951535) * SR_z_2 - (Real(0.3090169943749474) * SR_z_3 - (d_steer * h_y -
       S_yz));
   const Real front_S_zz = Real(0.9510565162951535) * SR_z_3 + (Real(0.3090169943749474) * SR_z_2 - (Real(2.0)
-      * (d_steer * h_z_2) - (d_steer * mr_z_2 + S_zz)));
+      * (d_steer * h_z_2) - (d_steer * mr_z + S_zz)));
   h_x = Real(0.3090169943749474) * front_h_z;
   h_z = Real(0.9510565162951535) * front_h_z;
   const Real mr_x_2 = r_steer_x * Real(7.0);
-  const Real mr_z_4 = r_steer_z * Real(7.0);
+  const Real mr_z_3 = r_steer_z * Real(7.0);
   SR_x = Real(0.3090169943749474) * front_S_zz;
   SR_z = Real(0.9510565162951535) * front_S_zz;
-  mr_z = rear_radius * Real(2.0);
-  const Real S_zz_2 = rear_radius * mr_z;
+  const Real mr_z_4 = rear_radius * Real(2.0);
+  const Real S_zz_2 = rear_radius * mr_z_4;
   const Real S3c_yy = Real(0.9510565162951535) * SR_y + (Real(0.3090169943749474) * SR_y_2 - (S_yy +
       Real(0.14)));
   S2b_zz = S3c_yy - Real(0.003500000000000002);
   S2b_d = S3c_yy + Real(0.003500000000000002);
   c9 = h_x + mr_x_2;
   c6 = Real(25.5) + c9;
-  c7 = Real(76.5) + (mr_z - (h_z - mr_z_4));
+  c7 = Real(76.5) + (mr_z_4 - (h_z - mr_z_3));
   c14 = Real(2.0) * r_steer_x;
   c16 = r_steer_x * mr_x_2 + Real(10.01);
   c17 = Real(2.0) * r_steer_z;
   c18 = SR_z + Real(0.1331479122813215);
-  c19 = Real(77.61) + (r_steer_z * mr_z_4 + S_zz_2);
+  c19 = Real(77.61) + (r_steer_z * mr_z_3 + S_zz_2);
   c20 = Real(0.3090169943749474) * S2b_zz;
   c21 = Real(0.9510565162951535) * S2b_zz;
   const Real r_front_z_2 = t20 - (d_steer - t19);
   const Real mr_z_5 = Real(3.0) * r_front_z_2;
-  const Real front_h_z_2 = mr_z_5 + (h_z_2 - mr_z_2);
+  const Real front_h_z_2 = mr_z_5 + (h_z_2 - mr_z);
   const Real h_x_2 = Real(0.3090169943749474) * front_h_z_2;
   const Real h_z_3 = Real(0.9510565162951535) * front_h_z_2;
   c22 = Real(25.5) + (mr_x_2 - h_x_2);
-  c23 = mr_z + (Real(76.5) + (mr_z_4 + h_z_3));
+  c23 = mr_z_4 + (Real(76.5) + (mr_z_3 + h_z_3));
   c25 = r_steer_x - Real(0.3090169943749474) * r_front_z;
   c26 = r_steer_z + Real(0.9510565162951535) * r_front_z;
-  c30 = Real(1.0) / S2b_zz;
-  c31 = Real(0.5) * front_radius;
-  c32 = rear_radius * Real(0.5);
+  c29 = Real(1.0) / S2b_zz;
+  c30 = Real(0.5) * front_radius;
+  c31 = rear_radius * Real(0.5);
   const Real t132 = d_steer + r_front_z_2;
-  c33 = expression_2 - Real(0.3090169943749474) * t132;
-  c34 = Real(0.9510565162951535) * t132;
+  c32 = expression_2 - Real(0.3090169943749474) * t132;
+  c33 = Real(0.9510565162951535) * t132;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -642,50 +642,45 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t54 = front_contactbd0p_z + front_contactbd0p_z;
   const Real t55 = Real(1.0) / front_contactup;
   const Real t56 = Real(0.5) * t55;
-  const Real t58 = t56 * model.front_radius;
-  const Real t59 = t54 * t58;
-  const Real t64 = front_contactbx2p_z - front_contactbd2p_z * t59;
-  const Real t65 = front_contactbx3_x + c2 * t59;
-  const Real t66 = front_contactbx2p_x - front_contactbd2p_x * t59;
-  const Real t69 = q0r2_z * Real(0.3090169943749474) + q0r2_x * Real(0.9510565162951535);
-  const Real t71 = q0r2_y * t59 + model.r_front_y * t69;
-  const Real t74 = q0r2_y * model.r_front_y - t59 * t69;
-  const Real t77 = c2 * t74 - s2 * t71;
-  const Real t82 = t51 * t53;
-  const Real t84 = t82 * model.rear_radius;
-  const Real t86 = q0d1 * t84;
-  const Real t89 = q0d2 * t66 - q0d1 * t65;
-  const Real t109 = q0d2 * t84;
-  const Real t110 = Real(2.0) * (state.y[4] * t66 + state.y[5] * t65);
-  const Real t119 = state.y[5] * model.mr_z - (q0d3 * t84 - q0d2 * model.rear_radius);
-  const Real t122 = Real(2.0) * (state.y[3] * t66 - state.y[5] * t64) - (q0d3 * t65 + q0d2 * t64);
-  const Real t129 = q0d1 * model.rear_radius - Real(2.0) * (state.y[3] * t84 - state.y[4] *
-      model.rear_radius);
-  const Real t132 = Real(2.0) * (state.y[3] * t65 + state.y[4] * t64) + (q0d3 * t66 + q0d1 * t64);
-  const Real t138 = t49 * t129 - (t48 * t119 - (t50 * t86 - t47 * t109));
+  const Real t62 = q0r2_x * Real(0.9510565162951535) + q0r2_z * Real(0.3090169943749474);
+  const Real t65 = c2 * t62 + q0r2_y * s2;
+  const Real t66 = t54 * t56;
+  const Real t68 = t66 * model.front_radius;
+  const Real t69 = c2 * t68;
+  const Real t70 = front_contactbd2p_z * t68;
+  const Real t73 = front_contactbx2p_z - t70;
+  const Real t75 = front_contactbx3_x + t69;
+  const Real t76 = front_contactbx2p_x - front_contactbd2p_x * t68;
+  const Real t79 = front_contactbx3_x * t62 + (t65 * t68 - q0r2_y * front_contactbx3_y);
+  const Real q012 = q0d1 * state.y[5];
+  const Real t84 = q0d1 * t48 - (state.y[3] * state.y[3] + (q0d3 * t50 - q022 * Real(0.5)));
+  const Real t86 = t53 * model.rear_radius;
+  const Real t91 = t51 * t86;
+  const Real t95 = q0r2_x * t91;
   const Real q033 = state.y[6] * q0d3;
-  const Real q012 = state.y[4] * q0d2;
   const Real q003 = q0d3 * state.y[3];
   const Real q0r0_x = Real(1.0) - (q022 + q033);
   const Real q0r0_y = q012 - q003;
   const Real q0r1_x = q012 + q003;
   const Real q0r1_y = t14 + q033;
   const Real q0r1_z = q023 - q001;
-  const Real t150 = model.rear_radius * q0r1_y;
-  const Real rear_contactc_y = t82 * t150;
+  const Real t106 = model.rear_radius * q0r1_y;
+  const Real rear_contactc_y = t91 * q0r1_y;
   const Real rear_contactc_z = model.rear_radius * (t17 / rear_contactup);
-  const Real rear_contacts1bn0_y = t52 * t150;
+  const Real rear_contacts1bn0_y = t52 * t106;
   const Real rear_contacts1bn0_z = q0r1_z * rear_contactc_z + q0r2_z * rear_contactc_y;
-  const Real t160 = model.rear_radius * q0r0_y;
+  const Real t116 = model.rear_radius * q0r0_y;
   const Real q0r0_z = q013 + q002;
-  const Real rear_contactc_x = t82 * t160;
-  const Real rear_contacts2bn0_y = t52 * t160;
+  const Real rear_contactc_x = t91 * q0r0_y;
+  const Real rear_contacts2bn0_y = t52 * t116;
   const Real rear_contacts2bn0_z = rear_contactc_z * q0r0_z - q0r2_z * rear_contactc_x;
   const Real front_contactbd0p_y = front_contactbd2p_z * q0r1_z - (front_contactbd2p_x * q0r1_x + c2 *
       q0r1_y);
-  const Real front_contactc_y = t59 * front_contactbd0p_y;
+  const Real t132 = model.front_radius * front_contactbd0p_y;
+  const Real front_contactc_y = t66 * t132;
   const Real front_contactc_z = model.front_radius * (t44 / front_contactup);
-  const Real front_contacts1bf2_y = Real(0.3090169943749474) * q0r0_z - Real(0.9510565162951535) * q0r0_x;
+  const Real t137 = Real(0.9510565162951535) * q0r0_x;
+  const Real front_contacts1bf2_y = Real(0.3090169943749474) * q0r0_z - t137;
   const Real front_contacts1bn0_x = q0r1_x * front_contactc_z - q0r2_x * front_contactc_y;
   const Real front_contacts1bn0_y = q0r1_y * front_contactc_z + q0r2_y * front_contactc_y;
   const Real front_contacts1bn0_z = q0r1_z * front_contactc_z + q0r2_z * front_contactc_y;
@@ -694,18 +689,17 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real front_contacts1bn3p_x = c2 * front_contacts1bn0_y - s2 * front_contacts1bn2_y;
   const Real front_contacts1bm_z = front_contactbx3_x * front_contacts1bf2_y + (front_contactbx3_y * q0r0_y +
       (Real(0.3090169943749474) * front_contacts1bn0_x + Real(0.9510565162951535) * front_contacts1bn0_z));
-  const Real front_contactbd0p_x = front_contactbd2p_z * q0r0_z - (front_contactbd2p_x * q0r0_x - c2 *
-      q0r0_y);
-  const Real front_contactc_x = t59 * front_contactbd0p_x;
-  const Real front_contacts2bf2_y = Real(0.3090169943749474) * q0r1_z - Real(0.9510565162951535) * q0r1_x;
+  const Real front_contactbd0p_x = c2 * q0r0_y + s2 * front_contacts1bf2_y;
+  const Real t170 = model.front_radius * front_contactbd0p_x;
+  const Real front_contactc_x = t66 * t170;
   const Real front_contacts2bn0_x = q0r0_x * front_contactc_z - q0r2_x * front_contactc_x;
   const Real front_contacts2bn0_y = q0r0_y * front_contactc_z - q0r2_y * front_contactc_x;
   const Real front_contacts2bn0_z = q0r0_z * front_contactc_z + q0r2_z * front_contactc_x;
   const Real front_contacts2bn2_y = Real(0.3090169943749474) * front_contacts2bn0_z - Real(0.9510565162951535)
       * front_contacts2bn0_x;
   const Real front_contacts2bn3p_x = c2 * front_contacts2bn0_y + s2 * front_contacts2bn2_y;
-  const Real front_contacts2bm_z = front_contactbx3_x * front_contacts2bf2_y - (front_contactbx3_y * q0r1_y +
-      (Real(0.3090169943749474) * front_contacts2bn0_x + Real(0.9510565162951535) * front_contacts2bn0_z));
+  const Real front_contacts2bm_z = model.r_front_y * front_contactbd0p_y - (Real(0.3090169943749474) *
+      front_contacts2bn0_x + Real(0.9510565162951535) * front_contacts2bn0_z);
   const Real S2b_t = s2 * model.S2b_d;
   const Real S2b_xx = s2 * S2b_t - Real(0.003500000000000002);
   const Real S2b_xy = c2 * S2b_t;
@@ -716,31 +710,31 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real h2b_y = c2 * model.front_h_y;
   const Real h2at2_x = Real(0.9510565162951535) * h2b_y;
   const Real h2at2_z = Real(0.3090169943749474) * h2b_y;
-  const Real t271 = Real(0.3090169943749474) * S2b_yz;
-  const Real S2at2r0_y = t271 + Real(0.9510565162951535) * S2b_yy;
-  const Real t274 = Real(0.9510565162951535) * S2b_yz;
-  const Real S2at2r0_z = t274 + Real(0.04326237921249264);
-  const Real S2at2r2_y = t274 - Real(0.3090169943749474) * S2b_yy;
+  const Real t222 = Real(0.3090169943749474) * S2b_yz;
+  const Real S2at2r0_y = t222 + Real(0.9510565162951535) * S2b_yy;
+  const Real t225 = Real(0.9510565162951535) * S2b_yz;
+  const Real S2at2r0_z = t225 + Real(0.04326237921249264);
+  const Real S2at2r2_y = t225 - Real(0.3090169943749474) * S2b_yy;
   const Real h2c_x = h2at2_x + model.c6;
   const Real h2c_z = h2at2_z + model.c7;
-  const Real t289 = h2b_x * model.r_steer_x;
-  const Real S2c_xy = t289 + (Real(0.3090169943749474) * S2b_xz - Real(0.9510565162951535) * S2b_xy);
-  const Real t300 = h2at2_z - model.h_z;
+  const Real t240 = h2b_x * model.r_steer_x;
+  const Real S2c_xy = t240 + (Real(0.3090169943749474) * S2b_xz - Real(0.9510565162951535) * S2b_xy);
+  const Real t251 = h2at2_z - model.h_z;
   const Real S2c_xz = Real(0.3090169943749474) * (S2at2r0_y - model.SR_z) + ((h2at2_x + model.c9) *
-      model.r_steer_z - (Real(0.9510565162951535) * S2at2r0_z - model.r_steer_x * t300)) +
+      model.r_steer_z - (Real(0.9510565162951535) * S2at2r0_z - model.r_steer_x * t251)) +
       Real(25.349999999999998);
   const Real S2c_yy = S2b_xx - Real(0.5002999999999995);
-  const Real t309 = h2b_x * model.r_steer_z;
-  const Real S2c_yz = t309 - (Real(0.3090169943749474) * S2b_xy + Real(0.9510565162951535) * S2b_xz);
+  const Real t260 = h2b_x * model.r_steer_z;
+  const Real S2c_yz = t260 - (Real(0.3090169943749474) * S2b_xy + Real(0.9510565162951535) * S2b_xz);
   const Real S1c_xx = (h2at2_x + model.h_x) * model.c14 + (Real(0.9510565162951535) * S2at2r0_y +
       Real(0.3090169943749474) * (S2at2r0_z + model.SR_x)) + model.c16;
-  const Real S1c_zz = t300 * model.c17 - (Real(0.3090169943749474) * S2at2r2_y + Real(0.9510565162951535) *
-      (t271 - model.c18)) + model.c19;
+  const Real S1c_zz = t251 * model.c17 - (Real(0.3090169943749474) * S2at2r2_y + Real(0.9510565162951535) *
+      (t222 - model.c18)) + model.c19;
   const Real p_7_2l_x = h2b_y * model.r_steer_z;
   const Real p_7_2l_z = h2b_y * model.r_steer_x;
-  const Real p_7_2n_x = t274 - p_7_2l_x + model.c20;
-  const Real p_7_2n_y = t309 * Real(0.9510565162951535) - (S2b_xz + t289 * Real(0.3090169943749474));
-  const Real p_7_2n_z = t271 + p_7_2l_z - model.c21;
+  const Real p_7_2n_x = t225 - p_7_2l_x + model.c20;
+  const Real p_7_2n_y = t260 * Real(0.9510565162951535) - (S2b_xz + t240 * Real(0.3090169943749474));
+  const Real p_7_2n_z = t222 + p_7_2l_z - model.c21;
   const Real p_7_0f_x = front_contactbd0p_x * model.front_h_y;
   const Real p_7_0f_y = front_contactbd0p_y * model.front_h_y;
   const Real p_7_0f_z = front_contactbd0p_z * model.front_h_y;
@@ -748,268 +742,250 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real p_8_3N_y = s2 * Real(0.28);
   const Real p_8_2n_x = Real(0.9510565162951535) * p_8_3N_y;
   const Real p_8_2n_z = Real(0.3090169943749474) * p_8_3N_y;
-  const Real t373 = p_8_2n_z * Real(3.571428571428571);
-  const Real t377 = p_8_3N_x * Real(3.571428571428571);
-  const Real t380 = p_8_2n_x * Real(3.571428571428571);
-  const Real t383 = p_7_2n_z * model.c30;
-  const Real t390 = p_7_2n_y * t383 + (S2c_yz - p_8_3N_x * t373);
-  const Real t393 = p_7_2n_x * t383 - (S2c_xz + p_8_2n_x * t373);
-  const Real t396 = p_7_0f_z * t383 + (q0r2_x * h2b_x - q0r2_y * h2c_x);
-  const Real t399 = p_7_0f_y * t383 - (q0r1_x * h2b_x + q0r1_y * h2c_x);
-  const Real t402 = p_7_0f_x * t383 - (q0r0_x * h2b_x - q0r0_y * h2c_x);
-  const Real t403 = p_7_2n_y * model.c30;
-  const Real t409 = p_7_2n_x * model.c30;
-  const Real t414 = p_7_0f_z * model.c30;
-  const Real t418 = p_7_0f_y * model.c30;
-  const Real t421 = p_7_0f_x * model.c30;
-  const Real t423 = Real(1.0) / (p_7_2n_z * t383 - (p_8_2n_z * t373 + (S2c_yy - S1c_xx)));
-  const Real t424 = t390 * t423;
-  const Real t435 = t393 * t424 - (p_7_2n_x * t403 + (S2c_xy - p_8_2n_x * t377));
-  const Real t439 = t396 * t424 - (p_7_0f_z * t403 + (q0r2_x * h2c_z - q0r2_z * h2c_x));
-  const Real t443 = t399 * t424 - (p_7_0f_y * t403 - (q0r1_x * h2c_z + q0r1_z * h2c_x));
-  const Real t447 = t402 * t424 - (p_7_0f_x * t403 - (q0r0_x * h2c_z + q0r0_z * h2c_x));
-  const Real t448 = t393 * t423;
-  const Real t453 = t396 * t423;
-  const Real t457 = t399 * t423;
-  const Real t460 = t402 * t423;
-  const Real t462 = Real(1.0) / (t390 * t424 - (p_7_2n_y * t403 - (p_8_3N_x * t377 - (S1c_xx + S1c_zz))) +
+  const Real t324 = p_8_2n_z * Real(3.571428571428571);
+  const Real t328 = p_8_3N_x * Real(3.571428571428571);
+  const Real t331 = p_8_2n_x * Real(3.571428571428571);
+  const Real t334 = p_7_2n_z * model.c29;
+  const Real t341 = p_7_2n_y * t334 + (S2c_yz - p_8_3N_x * t324);
+  const Real t344 = p_7_2n_x * t334 - (S2c_xz + p_8_2n_x * t324);
+  const Real t347 = p_7_0f_z * t334 + (q0r2_x * h2b_x - q0r2_y * h2c_x);
+  const Real t350 = p_7_0f_y * t334 - (q0r1_x * h2b_x + q0r1_y * h2c_x);
+  const Real t353 = p_7_0f_x * t334 - (q0r0_x * h2b_x - q0r0_y * h2c_x);
+  const Real t354 = p_7_2n_y * model.c29;
+  const Real t360 = p_7_2n_x * model.c29;
+  const Real t365 = p_7_0f_z * model.c29;
+  const Real t369 = p_7_0f_y * model.c29;
+  const Real t372 = p_7_0f_x * model.c29;
+  const Real t374 = Real(1.0) / (p_7_2n_z * t334 - (p_8_2n_z * t324 + (S2c_yy - S1c_xx)));
+  const Real t375 = t341 * t374;
+  const Real t386 = t344 * t375 - (p_7_2n_x * t354 + (S2c_xy - p_8_2n_x * t328));
+  const Real t390 = t347 * t375 - (p_7_0f_z * t354 + (q0r2_x * h2c_z - q0r2_z * h2c_x));
+  const Real t394 = t350 * t375 - (p_7_0f_y * t354 - (q0r1_x * h2c_z + q0r1_z * h2c_x));
+  const Real t398 = t353 * t375 - (p_7_0f_x * t354 - (q0r0_x * h2c_z + q0r0_z * h2c_x));
+  const Real t399 = t344 * t374;
+  const Real t404 = t347 * t374;
+  const Real t408 = t350 * t374;
+  const Real t411 = t353 * t374;
+  const Real t413 = Real(1.0) / (t341 * t375 - (p_7_2n_y * t354 - (p_8_3N_x * t328 - (S1c_xx + S1c_zz))) +
       Real(0.12));
-  const Real t463 = t435 * t462;
-  const Real t474 = t439 * t463 - (t396 * t448 - (p_7_0f_z * t409 + (q0r2_y * h2c_z - q0r2_z * h2b_x)));
-  const Real t479 = t443 * t463 - (t399 * t448 - (p_7_0f_y * t409 + (q0r1_y * h2c_z - q0r1_z * h2b_x)));
-  const Real t484 = t447 * t463 - (t402 * t448 - (p_7_0f_x * t409 - (q0r0_y * h2c_z + q0r0_z * h2b_x)));
-  const Real t485 = t439 * t462;
-  const Real t489 = t443 * t462;
-  const Real t492 = t447 * t462;
-  const Real t494 = Real(1.0) / (t435 * t463 - (t393 * t448 - (p_7_2n_x * t409 - (p_8_2n_x * t380 + (S2c_yy -
+  const Real t414 = t386 * t413;
+  const Real t425 = t390 * t414 - (t347 * t399 - (p_7_0f_z * t360 + (q0r2_y * h2c_z - q0r2_z * h2b_x)));
+  const Real t430 = t394 * t414 - (t350 * t399 - (p_7_0f_y * t360 + (q0r1_y * h2c_z - q0r1_z * h2b_x)));
+  const Real t435 = t398 * t414 - (t353 * t399 - (p_7_0f_x * t360 - (q0r0_y * h2c_z + q0r0_z * h2b_x)));
+  const Real t436 = t390 * t413;
+  const Real t440 = t394 * t413;
+  const Real t443 = t398 * t413;
+  const Real t445 = Real(1.0) / (t386 * t414 - (t344 * t399 - (p_7_2n_x * t360 - (p_8_2n_x * t331 + (S2c_yy -
       S1c_zz)))));
-  const Real t495 = t474 * t494;
-  const Real t505 = t479 * t495 - (t443 * t485 + (p_7_0f_y * t414 - t399 * t453));
-  const Real t509 = t484 * t495 - (t447 * t485 + (p_7_0f_x * t414 - t402 * t453));
-  const Real t510 = t479 * t494;
-  const Real t513 = t484 * t494;
-  const Real t515 = Real(1.0) / (t474 * t495 - (t439 * t485 + (p_7_0f_z * t414 - t396 * t453)) - Real(94.0));
-  const Real t516 = t505 * t515;
-  const Real t527 = t509 * t516 - (t484 * t510 - (t447 * t489 + (p_7_0f_x * t418 - t402 * t457)));
-  const Real t528 = t509 * t515;
-  const Real t530 = Real(1.0) / (t505 * t516 - (t479 * t510 - (t443 * t489 - (t399 * t457 - (p_7_0f_y * t418 +
+  const Real t446 = t425 * t445;
+  const Real t456 = t430 * t446 - (t394 * t436 + (p_7_0f_y * t365 - t350 * t404));
+  const Real t460 = t435 * t446 - (t398 * t436 + (p_7_0f_x * t365 - t353 * t404));
+  const Real t461 = t430 * t445;
+  const Real t464 = t435 * t445;
+  const Real t466 = Real(1.0) / (t425 * t446 - (t390 * t436 + (p_7_0f_z * t365 - t347 * t404)) - Real(94.0));
+  const Real t467 = t456 * t466;
+  const Real t478 = t460 * t467 - (t435 * t461 - (t398 * t440 + (p_7_0f_x * t369 - t353 * t408)));
+  const Real t479 = t460 * t466;
+  const Real t481 = Real(1.0) / (t456 * t467 - (t430 * t461 - (t394 * t440 - (t350 * t408 - (p_7_0f_y * t369 +
       Real(94.0))))));
-  const Real t531 = t527 * t530;
-  const Real t539 = Real(1.0) / (t527 * t531 - (t509 * t528 - (t484 * t513 - (t447 * t492 - (t402 * t460 -
-      (p_7_0f_x * t421 + Real(94.0)))))));
-  const Real t542 = t138 * t424 - (t47 * t119 - t50 * t129);
-  const Real t552 = t463 * t542 - (t138 * t448 + (t47 * t129 + (t50 * t119 + (t48 * t86 + t49 * t109))));
-  const Real t559 = t495 * t552 - (t485 * t542 - (Real(1.0) + t138 * t453));
-  const Real t565 = t516 * t559 - (t510 * t552 + (t138 * t457 - t489 * t542));
-  const Real t571 = t531 * t565 - (t528 * t559 - (t513 * t552 + (t138 * t460 - t492 * t542)));
-  const Real t573 = model.rear_radius * q0r0_x + rear_contacts1bn0_z * t424;
-  const Real t582 = t463 * t573 - (rear_contacts1bn0_z * t448 + (t160 + (q0r1_x * rear_contactc_z - q0r2_x *
+  const Real t482 = t478 * t481;
+  const Real t490 = Real(1.0) / (t478 * t482 - (t460 * t479 - (t435 * t464 - (t398 * t443 - (t353 * t411 -
+      (p_7_0f_x * t372 + Real(94.0)))))));
+  const Real t492 = q0r2_x * model.rear_radius + t95 * t375;
+  const Real t500 = t414 * t492 - (t95 * t399 + (q0r2_y * model.rear_radius + t84 * t91));
+  const Real t507 = t446 * t500 - (t436 * t492 - (Real(1.0) + t95 * t404));
+  const Real t513 = t467 * t507 - (t461 * t500 + (t95 * t408 - t440 * t492));
+  const Real t519 = t482 * t513 - (t479 * t507 - (t464 * t500 + (t95 * t411 - t443 * t492)));
+  const Real t521 = model.rear_radius * q0r0_x + rear_contacts1bn0_z * t375;
+  const Real t530 = t414 * t521 - (rear_contacts1bn0_z * t399 + (t116 + (q0r1_x * rear_contactc_z - q0r2_x *
       rear_contactc_y)));
-  const Real t588 = t495 * t582 + (rear_contacts1bn0_z * t453 - t485 * t573);
-  const Real t594 = t516 * t588 - (t510 * t582 + (rear_contacts1bn0_z * t457 - t489 * t573));
-  const Real t601 = t531 * t594 - (t528 * t588 - (t513 * t582 - (t492 * t573 + (Real(1.0) -
-      rear_contacts1bn0_z * t460))));
-  const Real t603 = model.rear_radius * q0r1_x - rear_contacts2bn0_z * t424;
-  const Real t612 = t463 * t603 + (rear_contacts2bn0_z * t448 + (q0r2_x * rear_contactc_x + (t150 + q0r0_x *
+  const Real t536 = t446 * t530 + (rear_contacts1bn0_z * t404 - t436 * t521);
+  const Real t542 = t467 * t536 - (t461 * t530 + (rear_contacts1bn0_z * t408 - t440 * t521));
+  const Real t549 = t482 * t542 - (t479 * t536 - (t464 * t530 - (t443 * t521 + (Real(1.0) -
+      rear_contacts1bn0_z * t411))));
+  const Real t551 = model.rear_radius * q0r1_x - rear_contacts2bn0_z * t375;
+  const Real t560 = t414 * t551 + (rear_contacts2bn0_z * t399 + (q0r2_x * rear_contactc_x + (t106 + q0r0_x *
       rear_contactc_z)));
-  const Real t618 = t495 * t612 - (rear_contacts2bn0_z * t453 + t485 * t603);
-  const Real t625 = t516 * t618 - (t510 * t612 - (t489 * t603 + (Real(1.0) + rear_contacts2bn0_z * t457)));
-  const Real t631 = t531 * t625 - (t528 * t618 - (t513 * t612 - (rear_contacts2bn0_z * t460 + t492 * t603)));
-  const Real t633 = t50 * t89 + t47 * t110;
-  const Real t635 = t77 * t383 + (t633 + t633);
-  const Real t646 = t424 * t635 - (t77 * t403 - (t50 * t132 + (t47 * t122 - (t49 * t89 + t48 * t110))));
-  const Real t657 = t463 * t646 - (t448 * t635 - (t77 * t409 - (t47 * t132 - (t50 * t122 - (t48 * t89 - t49 *
-      t110)))));
-  const Real t665 = t495 * t657 - (t485 * t646 - (t453 * t635 + (Real(1.0) - t77 * t414)));
-  const Real t672 = t516 * t665 - (t510 * t657 - (t489 * t646 + (t77 * t418 - t457 * t635)));
-  const Real t679 = t531 * t672 - (t528 * t665 - (t513 * t657 - (t492 * t646 + (t77 * t421 - t460 * t635))));
-  const Real t687 = front_contacts1bm_z * t383 + (front_contacts1bn3p_x * t373 + (front_contactbx2p_x * q0r0_y
+  const Real t566 = t446 * t560 - (rear_contacts2bn0_z * t404 + t436 * t551);
+  const Real t573 = t467 * t566 - (t461 * t560 - (t440 * t551 + (Real(1.0) + rear_contacts2bn0_z * t408)));
+  const Real t579 = t482 * t573 - (t479 * t566 - (t464 * t560 - (rear_contacts2bn0_z * t411 + t443 * t551)));
+  const Real t582 = t79 * t334 + (q0r2_x * t75 - q0r2_y * t76);
+  const Real t591 = t375 * t582 - (t79 * t354 + (q0r2_x * t73 - t76 * t84));
+  const Real t600 = t414 * t591 - (t399 * t582 - (t79 * t360 + (q0r2_y * t73 - t75 * t84)));
+  const Real t608 = t446 * t600 - (t436 * t591 - (t404 * t582 - (Real(1.0) + t79 * t365)));
+  const Real t615 = t467 * t608 - (t461 * t600 - (t440 * t591 + (t79 * t369 - t408 * t582)));
+  const Real t622 = t482 * t615 - (t479 * t608 - (t464 * t600 - (t443 * t591 + (t79 * t372 - t411 * t582))));
+  const Real t630 = front_contacts1bm_z * t334 + (front_contacts1bn3p_x * t324 + (front_contactbx2p_x * q0r0_y
       + (front_contacts1bn0_z - front_contactbx3_x * q0r0_x)));
-  const Real t698 = t424 * t687 - (front_contacts1bm_z * t403 + (front_contacts1bn3p_x * t377 -
+  const Real t641 = t375 * t630 - (front_contacts1bm_z * t354 + (front_contacts1bn3p_x * t328 -
       (front_contactbx2p_x * q0r0_z + (front_contacts1bn0_y + front_contactbx2p_z * q0r0_x))));
-  const Real t709 = t463 * t698 - (t448 * t687 - (front_contacts1bm_z * t409 + (front_contacts1bn3p_x * t380 -
+  const Real t652 = t414 * t641 - (t399 * t630 - (front_contacts1bm_z * t360 + (front_contacts1bn3p_x * t331 -
       (front_contactbx3_x * q0r0_z + (front_contacts1bn0_x + front_contactbx2p_z * q0r0_y)))));
-  const Real t716 = t495 * t709 - (t485 * t698 + (front_contacts1bm_z * t414 - t453 * t687));
-  const Real t723 = t516 * t716 - (t510 * t709 - (t489 * t698 + (front_contacts1bm_z * t418 - t457 * t687)));
-  const Real t731 = t531 * t723 - (t528 * t716 - (t513 * t709 - (t492 * t698 - (t460 * t687 - (Real(1.0) +
-      front_contacts1bm_z * t421)))));
-  const Real t739 = front_contacts2bm_z * t383 + (front_contacts2bn3p_x * t373 - (front_contactbx2p_x * q0r1_y
+  const Real t659 = t446 * t652 - (t436 * t641 + (front_contacts1bm_z * t365 - t404 * t630));
+  const Real t666 = t467 * t659 - (t461 * t652 - (t440 * t641 + (front_contacts1bm_z * t369 - t408 * t630)));
+  const Real t674 = t482 * t666 - (t479 * t659 - (t464 * t652 - (t443 * t641 - (t411 * t630 - (Real(1.0) +
+      front_contacts1bm_z * t372)))));
+  const Real t682 = front_contacts2bm_z * t334 + (front_contacts2bn3p_x * t324 - (front_contactbx2p_x * q0r1_y
       + (front_contacts2bn0_z + front_contactbx3_x * q0r1_x)));
-  const Real t750 = t424 * t739 - (front_contacts2bm_z * t403 + (front_contacts2bn3p_x * t377 -
+  const Real t693 = t375 * t682 - (front_contacts2bm_z * t354 + (front_contacts2bn3p_x * t328 -
       (front_contactbx2p_x * q0r1_z + (front_contacts2bn0_y + front_contactbx2p_z * q0r1_x))));
-  const Real t761 = t463 * t750 - (t448 * t739 - (front_contacts2bm_z * t409 + (front_contacts2bn3p_x * t380 -
+  const Real t704 = t414 * t693 - (t399 * t682 - (front_contacts2bm_z * t360 + (front_contacts2bn3p_x * t331 -
       (front_contactbx3_x * q0r1_z - (front_contacts2bn0_x + front_contactbx2p_z * q0r1_y)))));
-  const Real t768 = t495 * t761 - (t485 * t750 + (front_contacts2bm_z * t414 - t453 * t739));
-  const Real t776 = t516 * t768 - (t510 * t761 - (t489 * t750 - (t457 * t739 - (Real(1.0) +
-      front_contacts2bm_z * t418))));
-  const Real t783 = t531 * t776 - (t528 * t768 - (t513 * t761 - (t492 * t750 + (front_contacts2bm_z * t421 -
-      t460 * t739))));
-  const Real t796 = t539 * t601;
-  const Real t797 = t530 * t594;
-  const Real t798 = t515 * t588;
-  const Real t799 = t494 * t582;
-  const Real t800 = t462 * t573;
-  const Real t801 = rear_contacts1bn0_z * t423;
-  const Real t812 = t138 * t801 - (t542 * t800 - (t552 * t799 - (t559 * t798 + (t571 * t796 - t565 * t797))));
-  const Real t822 = t539 * t631;
-  const Real t823 = t530 * t625;
-  const Real t824 = t515 * t618;
-  const Real t825 = t494 * t612;
-  const Real t826 = t462 * t603;
-  const Real t827 = rear_contacts2bn0_z * t423;
-  const Real t828 = rear_contacts2bn0_y * Real(8.333333333333334);
-  const Real t839 = t138 * t827 + (t542 * t826 - (t552 * t825 - (t559 * t824 + (t571 * t822 - t565 * t823))));
-  const Real t854 = t539 * t679;
-  const Real t855 = t530 * t672;
-  const Real t856 = t515 * t665;
-  const Real t857 = t494 * t657;
-  const Real t858 = t462 * t646;
-  const Real t859 = t423 * t635;
-  const Real t870 = t138 * t859 - (t542 * t858 - (t552 * t857 - (t559 * t856 + (t571 * t854 - t565 * t855))));
-  const Real t891 = t539 * t731;
-  const Real t892 = t530 * t723;
-  const Real t893 = t515 * t716;
-  const Real t894 = t494 * t709;
-  const Real t895 = t462 * t698;
-  const Real t896 = t423 * t687;
-  const Real t897 = front_contacts1bm_z * model.c30;
-  const Real t908 = t138 * t896 - (t542 * t895 - (t552 * t894 - (t559 * t893 + (t571 * t891 - t565 * t892))));
-  const Real t937 = t539 * t783;
-  const Real t938 = t530 * t776;
-  const Real t939 = t515 * t768;
-  const Real t940 = t494 * t761;
-  const Real t941 = t462 * t750;
-  const Real t942 = t423 * t739;
-  const Real t943 = front_contacts2bm_z * model.c30;
-  const Real t944 = front_contacts2bn3p_x * Real(3.571428571428571);
-  const Real t955 = t138 * t942 - (t542 * t941 - (t552 * t940 - (t559 * t939 + (t571 * t937 - t565 * t938))));
-  const Real t998 = Real(1.0) / (t138 * (t138 * t423) - (t542 * (t462 * t542) - (t552 * (t494 * t552) - (t559
-      * (t515 * t559) + (t571 * (t539 * t571) - t565 * (t530 * t565))))) + Real(1.8087085566416913e-12));
-  const Real t999 = t812 * t998;
-  const Real t1010 = t839 * t998;
-  const Real t1018 = t812 * t1010 + (rear_contacts1bn0_y * t828 - (rear_contacts1bn0_z * t827 + (t573 * t826 -
-      (t582 * t825 - (t588 * t824 + (t601 * t822 - t594 * t823))))));
-  const Real t1020 = t870 * t998;
-  const Real t1027 = t812 * t1020 - (rear_contacts1bn0_z * t859 - (t573 * t858 - (t582 * t857 - (t588 * t856 +
-      (t601 * t854 - t594 * t855)))));
-  const Real t1030 = t908 * t998;
-  const Real t1037 = t812 * t1030 - (rear_contacts1bn0_z * t896 - (t573 * t895 - (t582 * t894 - (t588 * t893 +
-      (t601 * t891 - t594 * t892)))));
-  const Real t1041 = t955 * t998;
-  const Real t1048 = t812 * t1041 - (rear_contacts1bn0_z * t942 - (t573 * t941 - (t582 * t940 - (t588 * t939 +
-      (t601 * t937 - t594 * t938)))));
-  const Real t1053 = Real(1.0) / (t812 * t999 - (rear_contacts1bn0_y * rear_contacts1bn0_y *
-      Real(8.333333333333334) + (rear_contacts1bn0_z * t801 - (t573 * t800 - (t582 * t799 - (t588 * t798 +
-      (t601 * t796 - t594 * t797)))))) - Real(7.806783314072456e-11));
-  const Real t1054 = t1018 * t1053;
-  const Real t1066 = t1027 * t1053;
-  const Real t1074 = t1018 * t1066 - (t839 * t1020 - (rear_contacts2bn0_z * t859 + (t603 * t858 - (t612 * t857
-      - (t618 * t856 + (t631 * t854 - t625 * t855))))));
-  const Real t1076 = t1037 * t1053;
-  const Real t1084 = t1018 * t1076 - (t839 * t1030 - (rear_contacts2bn0_z * t896 + (t603 * t895 - (t612 * t894
-      - (t618 * t893 + (t631 * t891 - t625 * t892))))));
-  const Real t1087 = t1048 * t1053;
-  const Real t1095 = t1018 * t1087 - (t839 * t1041 - (rear_contacts2bn0_z * t942 + (t603 * t941 - (t612 * t940
-      - (t618 * t939 + (t631 * t937 - t625 * t938))))));
-  const Real t1099 = Real(1.0) / (t1018 * t1054 - (t839 * t1010 - (rear_contacts2bn0_y * t828 +
-      (rear_contacts2bn0_z * t827 - (t603 * t826 - (t612 * t825 - (t618 * t824 + (t631 * t822 - t625 *
-      t823))))))) + Real(8.816994788327498e-12));
-  const Real t1100 = t1074 * t1099;
-  const Real t1113 = t1084 * t1099;
-  const Real t1123 = t1074 * t1113 - (t1027 * t1076 - (t870 * t1030 + (t77 * t897 - (t635 * t896 - (t646 *
-      t895 - (t657 * t894 - (t665 * t893 + (t679 * t891 - t672 * t892))))))));
-  const Real t1125 = t1095 * t1099;
-  const Real t1135 = t1074 * t1125 - (t1027 * t1087 - (t870 * t1041 + (t77 * t943 - (t635 * t942 - (t646 *
-      t941 - (t657 * t940 - (t665 * t939 + (t679 * t937 - t672 * t938))))))));
-  const Real t1138 = Real(1.0) / (t1074 * t1100 - (t1027 * t1066 - (t870 * t1020 + (model.c30 * (t77 * t77) -
-      (t635 * t859 - (t646 * t858 - (t657 * t857 - (t665 * t856 + (t679 * t854 - t672 * t855)))))))) -
+  const Real t711 = t446 * t704 - (t436 * t693 + (front_contacts2bm_z * t365 - t404 * t682));
+  const Real t719 = t467 * t711 - (t461 * t704 - (t440 * t693 - (t408 * t682 - (Real(1.0) +
+      front_contacts2bm_z * t369))));
+  const Real t726 = t482 * t719 - (t479 * t711 - (t464 * t704 - (t443 * t693 + (front_contacts2bm_z * t372 -
+      t411 * t682))));
+  const Real t739 = t490 * t549;
+  const Real t740 = t481 * t542;
+  const Real t741 = t466 * t536;
+  const Real t742 = t445 * t530;
+  const Real t743 = t413 * t521;
+  const Real t744 = rear_contacts1bn0_z * t374;
+  const Real t755 = t95 * t744 - (t492 * t743 - (t500 * t742 - (t507 * t741 + (t519 * t739 - t513 * t740))));
+  const Real t765 = t490 * t579;
+  const Real t766 = t481 * t573;
+  const Real t767 = t466 * t566;
+  const Real t768 = t445 * t560;
+  const Real t769 = t413 * t551;
+  const Real t770 = rear_contacts2bn0_z * t374;
+  const Real t771 = rear_contacts2bn0_y * Real(8.333333333333334);
+  const Real t782 = t95 * t770 + (t492 * t769 - (t500 * t768 - (t507 * t767 + (t519 * t765 - t513 * t766))));
+  const Real t797 = t490 * t622;
+  const Real t798 = t481 * t615;
+  const Real t799 = t466 * t608;
+  const Real t800 = t445 * t600;
+  const Real t801 = t413 * t591;
+  const Real t802 = t374 * t582;
+  const Real t813 = t95 * t802 - (t492 * t801 - (t500 * t800 - (t507 * t799 + (t519 * t797 - t513 * t798))));
+  const Real t834 = t490 * t674;
+  const Real t835 = t481 * t666;
+  const Real t836 = t466 * t659;
+  const Real t837 = t445 * t652;
+  const Real t838 = t413 * t641;
+  const Real t839 = t374 * t630;
+  const Real t840 = front_contacts1bm_z * model.c29;
+  const Real t851 = t95 * t839 - (t492 * t838 - (t500 * t837 - (t507 * t836 + (t519 * t834 - t513 * t835))));
+  const Real t880 = t490 * t726;
+  const Real t881 = t481 * t719;
+  const Real t882 = t466 * t711;
+  const Real t883 = t445 * t704;
+  const Real t884 = t413 * t693;
+  const Real t885 = t374 * t682;
+  const Real t886 = front_contacts2bm_z * model.c29;
+  const Real t887 = front_contacts2bn3p_x * Real(3.571428571428571);
+  const Real t898 = t95 * t885 - (t492 * t884 - (t500 * t883 - (t507 * t882 + (t519 * t880 - t513 * t881))));
+  const Real t941 = Real(1.0) / (t95 * (t95 * t374) - (t492 * (t413 * t492) - (t500 * (t445 * t500) - (t507 *
+      (t466 * t507) + (t519 * (t490 * t519) - t513 * (t481 * t513))))) + Real(1.8087085566416913e-12));
+  const Real t942 = t755 * t941;
+  const Real t953 = t782 * t941;
+  const Real t961 = t755 * t953 + (rear_contacts1bn0_y * t771 - (rear_contacts1bn0_z * t770 + (t521 * t769 -
+      (t530 * t768 - (t536 * t767 + (t549 * t765 - t542 * t766))))));
+  const Real t963 = t813 * t941;
+  const Real t970 = t755 * t963 - (rear_contacts1bn0_z * t802 - (t521 * t801 - (t530 * t800 - (t536 * t799 +
+      (t549 * t797 - t542 * t798)))));
+  const Real t973 = t851 * t941;
+  const Real t980 = t755 * t973 - (rear_contacts1bn0_z * t839 - (t521 * t838 - (t530 * t837 - (t536 * t836 +
+      (t549 * t834 - t542 * t835)))));
+  const Real t984 = t898 * t941;
+  const Real t991 = t755 * t984 - (rear_contacts1bn0_z * t885 - (t521 * t884 - (t530 * t883 - (t536 * t882 +
+      (t549 * t880 - t542 * t881)))));
+  const Real t996 = Real(1.0) / (t755 * t942 - (rear_contacts1bn0_y * rear_contacts1bn0_y *
+      Real(8.333333333333334) + (rear_contacts1bn0_z * t744 - (t521 * t743 - (t530 * t742 - (t536 * t741 +
+      (t549 * t739 - t542 * t740)))))) - Real(7.806783314072456e-11));
+  const Real t997 = t961 * t996;
+  const Real t1009 = t970 * t996;
+  const Real t1017 = t961 * t1009 - (t782 * t963 - (rear_contacts2bn0_z * t802 + (t551 * t801 - (t560 * t800 -
+      (t566 * t799 + (t579 * t797 - t573 * t798))))));
+  const Real t1019 = t980 * t996;
+  const Real t1027 = t961 * t1019 - (t782 * t973 - (rear_contacts2bn0_z * t839 + (t551 * t838 - (t560 * t837 -
+      (t566 * t836 + (t579 * t834 - t573 * t835))))));
+  const Real t1030 = t991 * t996;
+  const Real t1038 = t961 * t1030 - (t782 * t984 - (rear_contacts2bn0_z * t885 + (t551 * t884 - (t560 * t883 -
+      (t566 * t882 + (t579 * t880 - t573 * t881))))));
+  const Real t1042 = Real(1.0) / (t961 * t997 - (t782 * t953 - (rear_contacts2bn0_y * t771 +
+      (rear_contacts2bn0_z * t770 - (t551 * t769 - (t560 * t768 - (t566 * t767 + (t579 * t765 - t573 *
+      t766))))))) + Real(8.816994788327498e-12));
+  const Real t1043 = t1017 * t1042;
+  const Real t1056 = t1027 * t1042;
+  const Real t1066 = t1017 * t1056 - (t970 * t1019 - (t813 * t973 + (t79 * t840 - (t582 * t839 - (t591 * t838
+      - (t600 * t837 - (t608 * t836 + (t622 * t834 - t615 * t835))))))));
+  const Real t1068 = t1038 * t1042;
+  const Real t1078 = t1017 * t1068 - (t970 * t1030 - (t813 * t984 + (t79 * t886 - (t582 * t885 - (t591 * t884
+      - (t600 * t883 - (t608 * t882 + (t622 * t880 - t615 * t881))))))));
+  const Real t1081 = Real(1.0) / (t1017 * t1043 - (t970 * t1009 - (t813 * t963 + (model.c29 * (t79 * t79) -
+      (t582 * t802 - (t591 * t801 - (t600 * t800 - (t608 * t799 + (t622 * t797 - t615 * t798)))))))) -
       Real(3.988016169236579e-12));
-  const Real t1139 = t1123 * t1138;
-  const Real t1154 = t1135 * t1138;
-  const Real t1166 = t1123 * t1154 - (t1084 * t1125 - (t1037 * t1087 - (t908 * t1041 - (front_contacts1bn3p_x
-      * t944 - (front_contacts1bm_z * t943 - (t687 * t942 - (t698 * t941 - (t709 * t940 - (t716 * t939 + (t731
-      * t937 - t723 * t938))))))))));
-  const Real t1168 = Real(1.0) / (t1123 * t1139 - (t1084 * t1113 - (t1037 * t1076 - (t908 * t1030 -
-      (Real(3.571428571428571) * (front_contacts1bn3p_x * front_contacts1bn3p_x) - (front_contacts1bm_z * t897
-      - (t687 * t896 - (t698 * t895 - (t709 * t894 - (t716 * t893 + (t731 * t891 - t723 * t892)))))))))) +
+  const Real t1082 = t1066 * t1081;
+  const Real t1097 = t1078 * t1081;
+  const Real t1109 = t1066 * t1097 - (t1027 * t1068 - (t980 * t1030 - (t851 * t984 - (front_contacts1bn3p_x *
+      t887 - (front_contacts1bm_z * t886 - (t630 * t885 - (t641 * t884 - (t652 * t883 - (t659 * t882 + (t674 *
+      t880 - t666 * t881))))))))));
+  const Real t1111 = Real(1.0) / (t1066 * t1082 - (t1027 * t1056 - (t980 * t1019 - (t851 * t973 -
+      (Real(3.571428571428571) * (front_contacts1bn3p_x * front_contacts1bn3p_x) - (front_contacts1bm_z * t840
+      - (t630 * t839 - (t641 * t838 - (t652 * t837 - (t659 * t836 + (t674 * t834 - t666 * t835)))))))))) +
       Real(4.6476630875276904e-11));
-  const Real t1169 = t1166 * t1168;
-  const Real t1185 = Real(1.0) / (t1166 * t1169 - (t1135 * t1154 - (t1095 * t1125 - (t1048 * t1087 - (t955 *
-      t1041 - (front_contacts2bn3p_x * t944 - (front_contacts2bm_z * t943 - (t739 * t942 - (t750 * t941 -
-      (t761 * t940 - (t768 * t939 + (t783 * t937 - t776 * t938))))))))))) - Real(2.7054786900152528e-11));
-  const Real t1192 = q0d1 * t48 - (state.y[3] * state.y[3] + (q0d3 * t50 - q0d2 * t49));
-  const Real t1201 = t50 * state.z[5] + (t48 * state.z[3] + t49 * state.z[4]);
-  const Real t1206 = t49 * state.z[5] + (t47 * state.z[3] - t50 * state.z[4]);
-  const Real t1211 = t48 * state.z[5] - (t50 * state.z[3] + t47 * state.z[4]);
-  const Real t1225 = Real(2.0) * t1206;
-  const Real t1228 = q0d1 * t1225;
-  const Real t1230 = Real(2.0) * t1211;
-  const Real t1232 = q0d2 * t1230;
-  const Real t1235 = q0d2 * t1206 - state.y[4] * t1230;
-  const Real t1236 = Real(2.0) * (t47 * state.z[5] - (t49 * state.z[3] - t48 * state.z[4]));
-  const Real t1238 = q0d3 * t1211 - state.y[5] * t1236;
-  const Real t1240 = q0d3 * t1206 + state.y[4] * t1236;
-  const Real t1241 = q0d3 * t1236;
-  const Real t1244 = state.y[3] * t1225 - q0d1 * t1201;
-  const Real t1246 = state.y[3] * t1230 + q0d2 * t1201;
-  const Real t1248 = state.y[3] * t1236 - q0d3 * t1201;
-  const Real t1249 = t1238 - t1244;
-  const Real t1250 = t1238 + t1244;
-  const Real t1251 = t51 * t1249;
-  const Real t1253 = Real(2.0) * t1249;
-  const Real t1262 = t1228 - t1232;
-  const Real t1268 = t53 * t1251;
-  const Real t1269 = model.rear_radius * t1251;
-  const Real t1270 = t52 * t53 * t1268;
-  const Real t1272 = t52 * rear_contactc_z * t1268;
-  const Real t1274 = t1240 + t1246;
-  const Real t1275 = t1240 - t1246;
-  const Real t1281 = s2 * state.z[7];
-  const Real t1282 = c2 * state.z[7];
-  const Real t1283 = model.r_front_y * t1281;
-  const Real t1292 = model.r_front_y * t1282;
-  const Real t1293 = Real(0.9510565162951535) * t1282;
-  const Real t1294 = Real(0.3090169943749474) * t1282;
-  const Real t1305 = Real(0.9510565162951535) * t1283;
-  const Real t1306 = Real(0.3090169943749474) * t1283;
-  const Real t1331 = q0r2_x * t1293 + (front_contactbd2p_x * t1274 + (q0r2_y * t1281 + (c2 * t1249 +
-      (front_contactbd2p_z * t1262 + q0r2_z * t1294))));
-  const Real t1332 = t54 * t1331;
-  const Real t1335 = t56 * t1332;
-  const Real t1336 = model.front_radius * t1332;
-  const Real t1339 = t55 * front_contactc_z * t1335;
-  const Real t1369 = Real(2.0) * (t58 * t1331) + model.front_radius * (t54 * (t55 * t56 * t1335));
-  const Real t1374 = q0r2_x * t1369;
-  const Real t1378 = front_contactbd2p_x * t1369 + (t1305 + t59 * t1293);
-  const Real t1425 = t1292 + (front_contactbx2p_x * state.z[5] + front_contactbx2p_z * state.z[3]);
-  const Real t1426 = s2 * state.z[8];
-  const Real t1428 = state.z[4] + c2 * state.z[8];
-  const Real t1433 = Real(0.9510565162951535) * t1426 - (state.z[3] + Real(0.3090169943749474) * state.z[7]);
-  const Real t1436 = Real(0.3090169943749474) * t1426 + (state.z[5] + Real(0.9510565162951535) * state.z[7]);
-  const Real t1447 = q0r2_x * t1433 + (q0r2_z * t1436 - q0r2_y * t1428);
-  const Real t1452 = q0r0_x * t1433 - (q0r0_z * t1436 + q0r0_y * t1428);
-  const Real t1454 = t1305 + (front_contactbx3_x * state.z[5] + front_contactbx2p_z * state.z[4]);
-  const Real t1456 = t1306 - (front_contactbx2p_x * state.z[4] - front_contactbx3_x * state.z[3]);
-  const Real t1457 = t55 * t1447;
-  const Real t1461 = t59 * t1447;
-  const Real t1463 = front_contactc_z * t1436 + front_contactbd2p_z * t1461;
-  const Real t1465 = front_contactc_z * t1428 + c2 * t1461;
-  const Real t1467 = front_contactc_z * t1433 + front_contactbd2p_x * t1461;
-  const Real t1475 = q0r1_x * t1433 - (q0r1_z * t1436 - q0r1_y * t1428);
-  const Real t1485 = state.z[4] + state.z[6];
-  const Real t1486 = model.rear_radius * state.z[4];
-  const Real t1489 = rear_contactc_z * state.z[5];
-  const Real t1495 = q0r2_x * state.z[3] - (q0r2_z * state.z[5] - q0r2_y * t1485);
-  const Real t1496 = rear_contactc_z * state.z[3];
-  const Real t1499 = q0r0_x * state.z[3] + (q0r0_z * state.z[5] + q0r0_y * t1485);
-  const Real t1500 = t52 * t1495;
-  const Real t1506 = model.rear_radius * state.z[3];
-  const Real t1508 = rear_contactc_z * t1485 + t84 * t1495;
-  const Real t1513 = q0r1_x * state.z[3] + (q0r1_z * state.z[5] - q0r1_y * t1485);
-  const Real t1530 = t1496 - t1506;
-  const Real t1532 = t1486 - t1508;
-  const Real t1534 = t1425 + t1467;
-  const Real t1536 = t1454 - t1465;
+  const Real t1112 = t1109 * t1111;
+  const Real t1128 = Real(1.0) / (t1109 * t1112 - (t1078 * t1097 - (t1038 * t1068 - (t991 * t1030 - (t898 *
+      t984 - (front_contacts2bn3p_x * t887 - (front_contacts2bm_z * t886 - (t682 * t885 - (t693 * t884 - (t704
+      * t883 - (t711 * t882 + (t726 * t880 - t719 * t881))))))))))) - Real(2.7054786900152528e-11));
+  const Real t1133 = t50 * state.z[5] + (t48 * state.z[3] + t49 * state.z[4]);
+  const Real t1138 = t49 * state.z[5] + (t47 * state.z[3] - t50 * state.z[4]);
+  const Real t1143 = t48 * state.z[5] - (t50 * state.z[3] + t47 * state.z[4]);
+  const Real t1148 = t47 * state.z[5] - (t49 * state.z[3] - t48 * state.z[4]);
+  const Real t1153 = Real(2.0) * state.y[3];
+  const Real t1155 = t51 * t53;
+  const Real t1159 = t52 * rear_contactc_z * t1155 - (t91 + t91);
+  const Real t1165 = c2 * Real(0.3090169943749474);
+  const Real t1171 = front_contactbx3_x * Real(0.9510565162951535);
+  const Real t1172 = front_contactbx3_x * Real(0.3090169943749474);
+  const Real t1190 = t66 * (t55 * front_contactc_z) - (t68 + t68);
+  const Real t1192 = t55 + t54 * (t66 * (t55 * t56));
+  const Real t1195 = t1143 * (q0d2 + q0d2);
+  const Real t1199 = q0d3 * t1143 - q0d2 * t1148;
+  const Real t1202 = t1148 * (q0d3 + q0d3);
+  const Real t1206 = t1143 * t1153 + q0d2 * t1133;
+  const Real t1208 = t1148 * t1153 - q0d3 * t1133;
+  const Real t1209 = t1138 * (q0d1 + q0d1);
+  const Real t1211 = q0d1 * t1133 - t1138 * t1153;
+  const Real t1213 = q0d1 * t1148 + q0d3 * t1138;
+  const Real t1214 = t1206 + t1213;
+  const Real t1215 = t1199 + t1211;
+  const Real t1217 = q0d1 * t1143 - q0d2 * t1138;
+  const Real t1218 = t1206 - t1213;
+  const Real t1219 = t1199 - t1211;
+  const Real t1220 = t1195 - t1209;
+  const Real t1223 = Real(2.0) * t86 + model.rear_radius * (t51 * (t52 * t53 * t1155));
+  const Real t1225 = model.rear_radius * state.z[3];
+  const Real t1233 = t1195 - t1202;
+  const Real t1236 = rear_contactc_z * state.z[3];
+  const Real t1239 = model.rear_radius * state.z[4];
+  const Real t1241 = rear_contactc_z * state.z[5];
+  const Real t1245 = state.z[4] + state.z[6];
+  const Real t1253 = q0r1_z * t1165 + (s2 * q0r1_y - Real(0.9510565162951535) * (c2 * q0r1_x));
+  const Real t1283 = state.z[7] * t1171 + (front_contactbx3_x * state.z[5] + front_contactbx2p_z *
+      state.z[4]);
+  const Real t1285 = front_contactbx3_y * state.z[7] + (front_contactbx2p_x * state.z[5] + front_contactbx2p_z
+      * state.z[3]);
+  const Real t1287 = state.z[7] * t1172 - (front_contactbx2p_x * state.z[4] - front_contactbx3_x *
+      state.z[3]);
+  const Real t1291 = front_contactbd2p_x * state.z[8] - (state.z[3] + Real(0.3090169943749474) * state.z[7]);
+  const Real t1293 = state.z[4] + c2 * state.z[8];
+  const Real t1296 = front_contactbd2p_z * state.z[8] + (state.z[5] + Real(0.9510565162951535) * state.z[7]);
+  const Real t1311 = t75 * (t84 * state.z[4] + q0r2_y * state.z[5]);
+  const Real t1316 = q0r2_y * t1245 + (q0r2_x * state.z[3] - q0r2_z * state.z[5]);
+  const Real t1338 = q0r2_z * t1296 - (q0r2_y * t1293 - q0r2_x * t1291);
+  const Real t1355 = rear_contactc_z * t1245 + t91 * t1316;
+  const Real t1368 = front_contactc_z * t1293 + t69 * t1338;
+  const Real t1370 = front_contactc_z * t1296 + t70 * t1338;
+  const Real t1372 = t68 * t1338;
+  const Real t1380 = front_contactc_z * t1291 + front_contactbd2p_x * t1372;
+  const Real t1381 = t1202 + t1209;
+  const Real t1387 = t75 * t1220;
+  const Real t1410 = t65 * state.z[7] + (front_contactbd2p_x * t1214 - (front_contactbd2p_z * t1220 - c2 *
+      t1215));
+  const Real t1425 = t1208 + t1217;
+  const Real t1426 = t1208 - t1217;
   const Real w2p_y = Real(0.3090169943749474) * state.z[5] - Real(0.9510565162951535) * state.z[3];
   const Real w2p_z = Real(0.3090169943749474) * state.z[3] + Real(0.9510565162951535) * state.z[5];
   const Real w2_z = state.z[7] + w2p_z;
@@ -1060,127 +1036,119 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real rf0_z = rf2p_z - (state.z[5] * ruh0 - h2c_z * ruw0);
   const Real tau_2_0 = input.u[0] - (rdn3_y + (w2p_y * rKx2 - (h2b_y * ra2o_y + (state.z[4] * rKy2 - h2b_x *
       ra2_y))));
-  const Real t1719 = t383 * tau_2_0 - (t373 * rQp3 - (model.r_steer_x * rdf2_x - (Real(0.9510565162951535) *
+  const Real t1608 = t334 * tau_2_0 - (t324 * rQp3 - (model.r_steer_x * rdf2_x - (Real(0.9510565162951535) *
       rdn3_y + (Real(0.3090169943749474) * rn2_y + (rdn1_x - (h2c_x * rfallW_y - (h2b_x * rfallW_x +
       (state.z[3] * rSu0_y - state.z[4] * rSu0_x))))))));
-  const Real t1736 = t424 * t1719 - (t403 * tau_2_0 - (t377 * rQp3 - (model.r_steer_z * rf2p_x +
+  const Real t1625 = t375 * t1608 - (t354 * tau_2_0 - (t328 * rQp3 - (model.r_steer_z * rf2p_x +
       (model.r_steer_x * rf2p_z + (rn2b_x - (rKy2 * z2_2 - (S2b_yz * zz_2 - (h2c_z * rfallW_x - (h2c_x *
       rfallW_z - (state.z[3] * rSu0_z + state.z[5] * rSu0_x))))))))));
-  const Real t1752 = t463 * t1736 - (t448 * t1719 - (t409 * tau_2_0 - (t380 * rQp3 + (model.r_steer_z * rdf2_x
+  const Real t1641 = t414 * t1625 - (t399 * t1608 - (t360 * tau_2_0 - (t331 * rQp3 + (model.r_steer_z * rdf2_x
       + (Real(0.9510565162951535) * rn2_y - (Real(0.3090169943749474) * rdn3_y - (rdn1_y + (h2c_z * rfallW_y -
       (h2b_x * rfallW_z - (state.z[4] * rSu0_z + state.z[5] * rSu0_y))))))))));
-  const Real t1764 = t495 * t1752 - (t485 * t1736 - (t453 * t1719 - (t414 * tau_2_0 - (q0r2_z * rf0_z -
+  const Real t1653 = t446 * t1641 - (t436 * t1625 - (t404 * t1608 - (t365 * tau_2_0 - (q0r2_z * rf0_z -
       (q0r2_x * rf0_x - q0r2_y * rf0_y))))) + Real(922.1400000000001);
-  const Real t1774 = t516 * t1764 - (t510 * t1752 - (t489 * t1736 - (t457 * t1719 - (t418 * tau_2_0 - (q0r1_z
+  const Real t1663 = t467 * t1653 - (t461 * t1641 - (t440 * t1625 - (t408 * t1608 - (t369 * tau_2_0 - (q0r1_z
       * rf0_z + (q0r1_x * rf0_x + q0r1_y * rf0_y))))));
-  const Real t1784 = t531 * t1774 - (t528 * t1764 - (t513 * t1752 - (t492 * t1736 - (t460 * t1719 - (t421 *
+  const Real t1673 = t482 * t1663 - (t479 * t1653 - (t464 * t1641 - (t443 * t1625 - (t411 * t1608 - (t372 *
       tau_2_0 - (q0r0_z * rf0_z + (q0r0_x * rf0_x - q0r0_y * rf0_y)))))));
-  const Real t1785 = t539 * t1784;
-  const Real t1786 = t530 * t1774;
-  const Real t1787 = t515 * t1764;
-  const Real t1788 = t494 * t1752;
-  const Real t1789 = t462 * t1736;
-  const Real t1790 = t423 * t1719;
-  const Real t1791 = model.c30 * tau_2_0;
-  const Real t1792 = Real(3.571428571428571) * rQp3;
-  const Real t1842 = model.rear_radius * (state.z[5] * (q0r2_x * t51 * t1270 + t53 * (q0r2_x * t1253 - t51 *
-      t1274)) + (state.z[3] * (t1249 + (t51 * t1192 * t1270 + t53 * (t1192 * t1253 - t51 * t1262))) +
-      state.z[4] * t1274)) - (t138 * t1790 - (t542 * t1789 - (t552 * t1788 - (t559 * t1787 + (t571 * t1785 -
-      t565 * t1786)))));
-  const Real t1861 = t999 * t1842 + (rear_contacts1bn0_z * t1790 - (t573 * t1789 - (t582 * t1788 - (t588 *
-      t1787 - (t594 * t1786 - (t601 * t1785 - (t1241 * t1532 + (t1235 * (t1496 + t1506) + (t1248 * t1530 -
-      (t1232 * t1486 + (t1228 * t1508 + (t1250 * t1489 - (t150 * t1249 * t1500 + (t52 * rear_contactc_y *
-      t1268 * t1495 + (t1269 * (t52 * t1513) - (t1272 * t1513 - state.z[6] * (rear_contactc_y *
-      t1249)))))))))))))))));
-  const Real t1885 = t1054 * t1861 - (t1010 * t1842 + (rear_contacts2bn0_z * t1790 + (t603 * t1789 - (t612 *
-      t1788 - (t618 * t1787 - (t625 * t1786 - (t631 * t1785 - (t1241 * t1530 - (t1235 * (t1486 + t1508) +
-      (t1248 * t1532 + (t1232 * t1496 + (t1228 * t1506 + (t1269 * (t52 * t1499) - (t1272 * t1499 - (t1275 *
-      t1489 - (t160 * t1249 * t1500 + (t52 * rear_contactc_x * t1268 * t1495 + state.z[6] * (rear_contactc_x *
-      t1249))))))))))))))))));
-  const Real t1910 = state.z[5] * (c2 * t1374 - (t59 * (q0r2_x * t1281 - c2 * t1274) - (q0r2_x * t1292 +
-      (front_contactbx3_x * t1274 + (t66 * t1249 + q0r2_y * t1378))))) - (t1100 * t1885 - (t1066 * t1861 -
-      (t1020 * t1842 - (t77 * t1791 - (t635 * t1790 - (t646 * t1789 - (t657 * t1788 - (t665 * t1787 - (t672 *
-      t1786 - (t679 * t1785 - (state.z[4] * (t66 * t1262 + (t59 * (q0r2_x * t1294 + front_contactbd2p_z *
-      t1274) + (front_contactbd2p_z * t1374 - (t1192 * t1378 - (q0r2_x * t1306 - front_contactbx2p_z *
-      t1274))))) - (state.z[7] * (c2 * (Real(0.9510565162951535) * (t59 * t1274 + t1374) + (model.r_front_y *
-      t1249 + Real(0.3090169943749474) * (t59 * t1262 + q0r2_z * t1369))) + (t74 * t1281 + (t71 * t1282 + s2 *
-      (model.r_front_y * (Real(0.3090169943749474) * t1262 + Real(0.9510565162951535) * t1274) - (t59 * t1249
-      - q0r2_y * t1369))))) + state.z[3] * (t59 * (c2 * t1262 - (t1192 * t1281 - (q0r2_y * t1294 -
-      front_contactbd2p_z * t1249))) + (t1369 * (c2 * t1192 + q0r2_y * front_contactbd2p_z) +
-      (front_contactbx2p_z * t1249 + (q0r2_y * t1306 + (t1192 * t1292 + front_contactbx3_x *
-      t1262)))))))))))))))));
-  const Real t1915 = q0r1_x * t1293 - (q0r1_y * t1281 + q0r1_z * t1294);
-  const Real t1957 = state.z[3] * (q0r0_z * t1292 - q0r0_y * t1306) - (t1461 * t1915 - (state.z[4] * (q0r0_z *
-      t1305 + q0r0_x * t1306) - (state.z[5] * (q0r0_x * t1292 + q0r0_y * t1305) - (state.z[7] *
-      (front_contacts1bf2_y * t1292 - q0r0_y * t1283) + (state.z[8] * (front_contacts1bn0_y * t1281 +
-      front_contacts1bn2_y * t1282) + (t1139 * t1910 + (t1113 * t1885 - (t1076 * t1861 - (t1030 * t1842 -
-      (front_contacts1bn3p_x * t1792 + (front_contacts1bm_z * t1791 - (t687 * t1790 - (t698 * t1789 - (t709 *
-      t1788 - (t716 * t1787 - (t723 * t1786 - (t731 * t1785 - (t1241 * t1536 + (t1235 * (t1425 - t1467) -
-      (t1248 * t1534 + (t1232 * t1454 + (t1228 * t1465 + (t1250 * t1463 - (t1275 * t1456 + (model.front_radius
-      * (front_contactbd0p_y * t1331 * t1457) + (t55 * front_contactc_y * t1335 * t1447 + (t1336 * (t55 *
-      t1475) - (t1339 * t1475 - (front_contactc_y * t1274 * t1433 + (front_contactc_y * t1262 * t1436 +
-      front_contactc_y * t1249 * t1428))))))))))))))))))))))))))))));
-  const Real t2010 = t1185 * (state.z[3] * (q0r1_z * t1292 + q0r1_y * t1306) + (t1461 * (q0r0_x * t1293 +
-      (q0r0_y * t1281 - q0r0_z * t1294)) + (state.z[4] * (q0r1_z * t1305 + q0r1_x * t1306) - (state.z[5] *
-      (q0r1_x * t1292 - q0r1_y * t1305) + (model.r_front_y * (state.z[7] * t1915) - (state.z[8] *
-      (front_contacts2bn0_y * t1281 - front_contacts2bn2_y * t1282) - (t1169 * t1957 - (t1154 * t1910 + (t1125
-      * t1885 - (t1087 * t1861 - (t1041 * t1842 - (front_contacts2bn3p_x * t1792 + (front_contacts2bm_z *
-      t1791 - (t739 * t1790 - (t750 * t1789 - (t761 * t1788 - (t768 * t1787 - (t776 * t1786 - (t783 * t1785 +
-      (t1241 * t1534 + (t1235 * (t1454 + t1465) + (t1248 * t1536 - (t1232 * t1467 - (t1228 * t1425 + (t1250 *
-      t1456 + (t1275 * t1463 + (t1336 * (t55 * t1452) - (t1339 * t1452 - (model.front_radius *
-      (front_contactbd0p_x * t1331 * t1457) + (t55 * front_contactc_x * t1335 * t1447 + (front_contactc_x *
-      t1274 * t1433 + (front_contactc_x * t1262 * t1436 + front_contactc_x * t1249 *
-      t1428))))))))))))))))))))))))))))))));
-  const Real t2012 = t1168 * t1957 + t1169 * t2010;
-  const Real t2016 = t1154 * t2010 + (t1138 * t1910 - t1139 * t2012);
-  const Real t2022 = t1125 * t2010 - (t1113 * t2012 + (t1099 * t1885 + t1100 * t2016));
-  const Real t2030 = t1087 * t2010 - (t1076 * t2012 + (t1066 * t2016 + (t1053 * t1861 + t1054 * t2022)));
-  const Real t2040 = t1041 * t2010 - (t1030 * t2012 + (t1020 * t2016 + (t1010 * t2022 + (t998 * t1842 + t999 *
-      t2030))));
-  const Real t2041 = Real(1.8087085566416913e-12) * t2040;
-  const Real t2048 = Real(7.806783314072456e-11) * t2030 - t999 * t2041;
-  const Real t2055 = t1054 * t2048 - (Real(8.816994788327498e-12) * t2022 - t1010 * t2041);
-  const Real t2062 = t1100 * t2055 - (t1066 * t2048 - (Real(3.988016169236579e-12) * t2016 - t1020 * t2041));
-  const Real t2069 = t1139 * t2062 - (t1113 * t2055 - (t1076 * t2048 - (Real(4.6476630875276904e-11) * t2012 -
-      t1030 * t2041)));
-  const Real t2082 = t1185 * (t1169 * t2069 - (t1154 * t2062 - (t1125 * t2055 - (t1087 * t2048 +
-      (Real(2.7054786900152528e-11) * t2010 + t1041 * t2041)))));
-  const Real t2084 = t1168 * t2069 - t1169 * t2082;
-  const Real t2088 = t1154 * t2082 - (t1138 * t2062 - t1139 * t2084);
-  const Real t2094 = t1125 * t2082 + (t1113 * t2084 - (t1099 * t2055 + t1100 * t2088));
-  const Real t2102 = t1087 * t2082 + (t1076 * t2084 - (t1066 * t2088 + (t1053 * t2048 + t1054 * t2094)));
-  const Real t2113 = t1041 * t2082 + (t1030 * t2084 - (t1020 * t2088 + (t1010 * t2094 + (t999 * t2102 - (t2040
-      + t998 * t2041)))));
-  const Real t2114 = t2030 + t2102;
-  const Real t2115 = t2022 + t2094;
-  const Real t2116 = t2016 + t2088;
-  const Real t2117 = t2012 - t2084;
-  const Real t2118 = t2010 + t2082;
-  const Real t2204 = t539 * (t783 * t2118 - (t731 * t2117 + (t679 * t2116 - (t631 * t2115 - (t601 * t2114 -
-      (t1784 - t571 * t2113))))));
-  const Real t2207 = t530 * (t776 * t2118 - (t723 * t2117 + (t672 * t2116 - (t625 * t2115 - (t594 * t2114 -
-      (t1774 - t565 * t2113)))))) - t531 * t2204;
-  const Real t2212 = t516 * t2207 - (t515 * (t768 * t2118 - (t716 * t2117 + (t665 * t2116 - (t618 * t2115 -
-      (t588 * t2114 - (t1764 - t559 * t2113)))))) - t528 * t2204);
-  const Real t2219 = t495 * t2212 - (t510 * t2207 - (t494 * (t761 * t2118 - (t709 * t2117 + (t657 * t2116 -
-      (t612 * t2115 - (t582 * t2114 - (t1752 - t552 * t2113)))))) - t513 * t2204));
-  const Real t2228 = t463 * t2219 - (t485 * t2212 - (t489 * t2207 - (t462 * (t750 * t2118 - (t698 * t2117 +
-      (t646 * t2116 - (t603 * t2115 - (t573 * t2114 - (t1736 - t542 * t2113)))))) - t492 * t2204)));
-  const Real t2239 = t424 * t2228 - (t448 * t2219 - (t453 * t2212 - (t457 * t2207 - (t423 * (t739 * t2118 -
-      (t687 * t2117 + (t635 * t2116 + (rear_contacts2bn0_z * t2115 + (rear_contacts1bn0_z * t2114 - (t1719 -
-      t138 * t2113)))))) - t460 * t2204))));
-  zdot[0] = t2204;
-  zdot[1] = t2207;
-  zdot[2] = t2212;
-  zdot[3] = -t2219;
-  zdot[4] = -t2228;
-  zdot[5] = t2239;
-  zdot[6] = t2228 + Real(8.333333333333334) * (rear_contacts1bn0_y * t2114 - rear_contacts2bn0_y * t2115);
-  zdot[7] = t383 * t2239 - (t403 * t2228 - (t409 * t2219 - (t414 * t2212 - (t418 * t2207 - (model.c30 *
-      (front_contacts2bm_z * t2118 - (front_contacts1bm_z * t2117 - (tau_2_0 - t77 * t2116))) - t421 *
-      t2204)))));
-  zdot[8] = -(t373 * t2239 - (t377 * t2228 - (Real(3.571428571428571) * (front_contacts2bn3p_x * t2118 - (rQp3
-      + front_contacts1bn3p_x * t2117)) + t380 * t2219)));
+  const Real t1674 = t490 * t1673;
+  const Real t1675 = t481 * t1663;
+  const Real t1676 = t466 * t1653;
+  const Real t1677 = t445 * t1641;
+  const Real t1678 = t413 * t1625;
+  const Real t1679 = t374 * t1608;
+  const Real t1680 = model.c29 * tau_2_0;
+  const Real t1681 = Real(3.571428571428571) * rQp3;
+  const Real t1734 = t1214 * (t1239 - t91 * state.z[5]) + (t1215 * (t1225 + t1215 * t1223) - (t95 * t1679 -
+      (t492 * t1678 - (t500 * t1677 - (t507 * t1676 - (t513 * t1675 - (state.z[3] * (t91 * t1220) + t519 *
+      t1674)))))));
+  const Real t1749 = t942 * t1734 + (rear_contacts1bn0_z * t1679 - (t521 * t1678 - (t530 * t1677 - (t536 *
+      t1676 - (t542 * t1675 - (t549 * t1674 + (t1225 * t1425 - (t1236 * t1426 - (t1233 * t1239 + (t1219 *
+      t1241 + (t1214 * (rear_contactc_y * state.z[3]) - (t1215 * (q0r1_y * t1223 * t1316 + (rear_contactc_y *
+      t1245 + t1159 * (q0r1_y * t1245 - (q0r1_x * state.z[3] + q0r1_z * state.z[5])))) - (t1355 * t1381 +
+      t1220 * (rear_contactc_y * state.z[5]))))))))))))));
+  const Real t1769 = t997 * t1749 - (t953 * t1734 + (rear_contacts2bn0_z * t1679 + (t551 * t1678 - (t560 *
+      t1677 - (t566 * t1676 - (t573 * t1675 - (t579 * t1674 - (t1218 * t1241 + (t1355 * t1425 - (t1239 * t1426
+      + (t1233 * t1236 + (t1214 * (rear_contactc_x * state.z[3]) - (t1215 * (q0r0_y * t1223 * t1316 +
+      (rear_contactc_x * t1245 + t1159 * (q0r0_y * t1245 + (q0r0_z * state.z[5] + q0r0_x * state.z[3])))) -
+      (t1225 * t1381 + t1220 * (rear_contactc_x * state.z[5])))))))))))))));
+  const Real t1779 = Real(0.9510565162951535) * t1311 - Real(0.3090169943749474) * t1387;
+  const Real t1799 = state.z[4] * (t73 * t1214) + (state.z[3] * (t73 * t1215 - t1387) + (state.z[7] * (t1779 -
+      (state.z[7] * (front_contactbd0p_z * t68 - model.r_front_y * t65) - (Real(2.0) * ((front_contactbx3_y -
+      s2 * t68) * t1215) + t1779))) + (t1043 * t1769 - (t1009 * t1749 - (t963 * t1734 - (t79 * t1680 - (t582 *
+      t1679 - (t591 * t1678 - (t600 * t1677 - (t608 * t1676 - (t615 * t1675 - (t622 * t1674 -
+      (model.front_radius * (t1410 * (t1192 * t1410)) + (state.z[5] * t1311 + (t1220 * (t76 * state.z[4]) +
+      t1215 * (t76 * state.z[5]))))))))))))))));
+  const Real t1824 = t1082 * t1799 - (t1056 * t1769 - (t1019 * t1749 - (t973 * t1734 - (front_contacts1bn3p_x
+      * t1681 + (front_contacts1bm_z * t1680 - (t630 * t1679 - (t641 * t1678 - (t652 * t1677 - (t659 * t1676 -
+      (t666 * t1675 - (t674 * t1674 + (t1218 * t1287 + (t1285 * t1425 + (t1380 * t1426 + (t1233 * t1283 -
+      (t1410 * (t132 * t1192 * t1338 + t1190 * (q0r1_z * t1296 - (q0r1_x * t1291 + q0r1_y * t1293))) +
+      (state.z[7] * (t1338 * (t68 * t1253) + (state.z[8] * (s2 * front_contacts1bn0_y + c2 *
+      front_contacts1bn2_y) - (state.z[7] * (front_contactbx3_x * q0r0_y - front_contactbx3_y *
+      front_contacts1bf2_y) - (state.z[3] * (front_contactbx3_y * q0r0_z - q0r0_y * t1172) - (state.z[5] *
+      (front_contactbx3_y * q0r0_x + q0r0_y * t1171) - state.z[4] * (q0r0_x * t1172 + q0r0_z * t1171)))))) -
+      (t1219 * t1370 - (t1214 * (front_contactc_y * t1291) + (t1215 * (front_contactc_y * t1293) - (t1368 *
+      t1381 + t1220 * (front_contactc_y * t1296))))))))))))))))))))));
+  const Real t1855 = t1128 * (t1112 * t1824 - (t1097 * t1799 - (t1068 * t1769 - (t1030 * t1749 - (t984 * t1734
+      - (front_contacts2bn3p_x * t1681 + (front_contacts2bm_z * t1680 - (t682 * t1679 - (t693 * t1678 - (t704
+      * t1677 - (t711 * t1676 - (t719 * t1675 - (t726 * t1674 - (t1218 * t1370 + (t1368 * t1425 - (t1283 *
+      t1426 - (t1233 * t1380 - (t1410 * (t170 * t1192 * t1338 - t1190 * (q0r0_x * t1291 - (q0r0_y * t1293 +
+      q0r0_z * t1296))) + (state.z[7] * ((q0r0_z * t1165 - (s2 * q0r0_y + c2 * t137)) * t1372 -
+      (model.r_front_y * (state.z[7] * t1253) - (state.z[5] * (front_contactbx3_y * q0r1_x - q0r1_y * t1171) -
+      (state.z[4] * (q0r1_x * t1172 + q0r1_z * t1171) + (state.z[8] * (s2 * front_contacts2bn0_y - c2 *
+      front_contacts2bn2_y) + state.z[3] * (front_contactbx3_y * q0r1_z + q0r1_y * t1172)))))) + (t1219 *
+      t1287 + (t1214 * (front_contactc_x * t1291) + (t1215 * (front_contactc_x * t1293) + (t1285 * t1381 -
+      t1220 * (front_contactc_x * t1296))))))))))))))))))))))));
+  const Real t1857 = t1111 * t1824 - t1112 * t1855;
+  const Real t1861 = t1097 * t1855 - (t1081 * t1799 - t1082 * t1857);
+  const Real t1867 = t1068 * t1855 + (t1056 * t1857 - (t1042 * t1769 + t1043 * t1861));
+  const Real t1875 = t1030 * t1855 + (t1019 * t1857 - (t1009 * t1861 + (t996 * t1749 + t997 * t1867)));
+  const Real t1885 = t984 * t1855 + (t973 * t1857 - (t963 * t1861 + (t953 * t1867 + (t941 * t1734 + t942 *
+      t1875))));
+  const Real t1886 = Real(1.8087085566416913e-12) * t1885;
+  const Real t1893 = Real(7.806783314072456e-11) * t1875 - t942 * t1886;
+  const Real t1900 = t997 * t1893 - (Real(8.816994788327498e-12) * t1867 - t953 * t1886);
+  const Real t1907 = t1043 * t1900 - (t1009 * t1893 - (Real(3.988016169236579e-12) * t1861 - t963 * t1886));
+  const Real t1914 = t1082 * t1907 - (t1056 * t1900 - (t1019 * t1893 + (Real(4.6476630875276904e-11) * t1857 +
+      t973 * t1886)));
+  const Real t1927 = t1128 * (t1112 * t1914 - (t1097 * t1907 - (t1068 * t1900 - (t1030 * t1893 +
+      (Real(2.7054786900152528e-11) * t1855 + t984 * t1886)))));
+  const Real t1929 = t1111 * t1914 - t1112 * t1927;
+  const Real t1933 = t1097 * t1927 - (t1081 * t1907 - t1082 * t1929);
+  const Real t1939 = t1068 * t1927 + (t1056 * t1929 - (t1042 * t1900 + t1043 * t1933));
+  const Real t1947 = t1030 * t1927 + (t1019 * t1929 - (t1009 * t1933 + (t996 * t1893 + t997 * t1939)));
+  const Real t1958 = t984 * t1927 + (t973 * t1929 - (t963 * t1933 + (t953 * t1939 + (t942 * t1947 - (t1885 +
+      t941 * t1886)))));
+  const Real t1959 = t1875 + t1947;
+  const Real t1960 = t1867 + t1939;
+  const Real t1961 = t1861 + t1933;
+  const Real t1962 = t1857 + t1929;
+  const Real t1963 = t1855 + t1927;
+  const Real t2049 = t490 * (t726 * t1963 + (t674 * t1962 - (t622 * t1961 - (t579 * t1960 - (t549 * t1959 -
+      (t1673 - t519 * t1958))))));
+  const Real t2052 = t481 * (t719 * t1963 + (t666 * t1962 - (t615 * t1961 - (t573 * t1960 - (t542 * t1959 -
+      (t1663 - t513 * t1958)))))) - t482 * t2049;
+  const Real t2057 = t467 * t2052 - (t466 * (t711 * t1963 + (t659 * t1962 - (t608 * t1961 - (t566 * t1960 -
+      (t536 * t1959 - (t1653 - t507 * t1958)))))) - t479 * t2049);
+  const Real t2064 = t446 * t2057 - (t461 * t2052 - (t445 * (t704 * t1963 + (t652 * t1962 - (t600 * t1961 -
+      (t560 * t1960 - (t530 * t1959 - (t1641 - t500 * t1958)))))) - t464 * t2049));
+  const Real t2073 = t414 * t2064 - (t436 * t2057 - (t440 * t2052 - (t413 * (t693 * t1963 + (t641 * t1962 -
+      (t591 * t1961 - (t551 * t1960 - (t521 * t1959 - (t1625 - t492 * t1958)))))) - t443 * t2049)));
+  const Real t2084 = t375 * t2073 - (t399 * t2064 - (t404 * t2057 - (t408 * t2052 - (t374 * (t682 * t1963 +
+      (t630 * t1962 - (t582 * t1961 + (rear_contacts2bn0_z * t1960 + (rear_contacts1bn0_z * t1959 - (t1608 -
+      t95 * t1958)))))) - t411 * t2049))));
+  zdot[0] = t2049;
+  zdot[1] = t2052;
+  zdot[2] = t2057;
+  zdot[3] = -t2064;
+  zdot[4] = -t2073;
+  zdot[5] = t2084;
+  zdot[6] = t2073 + Real(8.333333333333334) * (rear_contacts1bn0_y * t1959 - rear_contacts2bn0_y * t1960);
+  zdot[7] = t334 * t2084 - (t354 * t2073 - (t360 * t2064 - (t365 * t2057 - (t369 * t2052 - (model.c29 *
+      (front_contacts2bm_z * t1963 + (front_contacts1bm_z * t1962 + (tau_2_0 - t79 * t1961))) - t372 *
+      t2049)))));
+  zdot[8] = -(t324 * t2084 - (t328 * t2073 - (Real(3.571428571428571) * (front_contacts2bn3p_x * t1963 - (rQp3
+      - front_contacts1bn3p_x * t1962)) + t331 * t2064)));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -1473,75 +1441,62 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real front_contactbx2p_z = front_contactbx3_y * Real(0.3090169943749474) + model.c26;
   const Real front_contactbd2p_x = s2 * Real(0.9510565162951535);
   const Real front_contactbd2p_z = s2 * Real(0.3090169943749474);
-  const Real front_contactbd0p_z = q0r2_y * c2 - (q0r2_x * front_contactbd2p_x + q0r2_z *
-      front_contactbd2p_z);
+  const Real front_contactbd0p_z = q0r2_z * front_contactbd2p_z + (q0r2_x * front_contactbd2p_x - q0r2_y *
+      c2);
   const Real t52 = Real(1.0) - front_contactbd0p_z * front_contactbd0p_z;
   const Real front_contactup = detail::square_root(t52);
-  const Real t57 = state.y[3] * Real(0.5);
-  const Real t58 = state.y[4] * Real(0.5);
-  const Real t59 = state.y[5] * Real(0.5);
-  const Real t60 = state.y[6] * Real(0.5);
-  const Real t65 = (front_contactbd0p_z + front_contactbd0p_z) / front_contactup * model.c31;
-  const Real t74 = front_contactbx2p_z + front_contactbd2p_z * t65;
-  const Real t75 = front_contactbx3_x - c2 * t65;
-  const Real t76 = front_contactbx2p_x + front_contactbd2p_x * t65;
-  const Real t87 = c2 * (Real(0.9510565162951535) * (q0r2_x * t65) + (Real(0.3090169943749474) * (q0r2_z *
-      t65) + q0r2_y * model.r_front_y)) + s2 * (q0r2_y * t65 - model.r_front_y * (q0r2_z *
-      Real(0.3090169943749474) + q0r2_x * Real(0.9510565162951535)));
-  const Real t94 = (q0r2_y + q0r2_y) / rear_contactup * model.c32;
-  const Real t96 = q0d1 * t94;
-  const Real t99 = q0d2 * t76 - q0d1 * t75;
-  const Real t119 = q0d2 * t94;
-  const Real t120 = Real(2.0) * (state.y[4] * t76 + state.y[5] * t75);
-  const Real t129 = q0d2 * model.rear_radius - (q0d3 * t94 - state.y[5] * model.mr_z);
-  const Real t132 = q0d2 * t74 + (q0d3 * t75 - Real(2.0) * (state.y[3] * t76 - state.y[5] * t74));
-  const Real t140 = q0d1 * model.rear_radius - Real(2.0) * (state.y[3] * t94 - state.y[4] *
-      model.rear_radius);
-  const Real t143 = q0d1 * t74 + (q0d3 * t76 + Real(2.0) * (state.y[3] * t75 + state.y[4] * t74));
-  const Real t149 = t57 * t119 - (t60 * t96 - (t58 * t129 - t59 * t140));
+  const Real t62 = q0r2_x * Real(0.9510565162951535) + q0r2_z * Real(0.3090169943749474);
+  const Real t68 = (front_contactbd0p_z + front_contactbd0p_z) / front_contactup * model.c30;
+  const Real t73 = front_contactbx2p_z - front_contactbd2p_z * t68;
+  const Real t75 = front_contactbx3_x + c2 * t68;
+  const Real t76 = front_contactbx2p_x - front_contactbd2p_x * t68;
+  const Real t79 = front_contactbx3_x * t62 + ((c2 * t62 + q0r2_y * s2) * t68 - q0r2_y * front_contactbx3_y);
+  const Real q012 = q0d1 * state.y[5];
+  const Real t85 = (q011 + q022) * Real(0.5) - (state.y[6] * state.y[6] + state.y[3] * state.y[3]);
+  const Real t92 = (q0r2_y + q0r2_y) / rear_contactup * model.c31;
+  const Real t96 = q0r2_x * t92;
   const Real q033 = state.y[6] * q0d3;
-  const Real q012 = state.y[4] * q0d2;
   const Real q003 = q0d3 * state.y[3];
-  const Real q0r0_x = q033 + (q022 - Real(1.0));
+  const Real q0r0_x = Real(1.0) - (q022 + q033);
   const Real q0r0_y = q012 - q003;
   const Real q0r1_x = q012 + q003;
   const Real q0r1_y = t14 + q033;
   const Real q0r1_z = q023 - q001;
-  const Real t162 = model.rear_radius * q0r1_y;
-  const Real rear_contactc_y = q0r2_y * t162 / rear_contactup;
+  const Real t107 = model.rear_radius * q0r1_y;
+  const Real rear_contactc_y = q0r2_y * t107 / rear_contactup;
   const Real rear_contactc_z = model.rear_radius * (t18 / rear_contactup);
   const Real rear_contacts1bn0_y = q0r1_y * rear_contactc_z + q0r2_y * rear_contactc_y;
   const Real rear_contacts1bn0_z = q0r1_z * rear_contactc_z + q0r2_z * rear_contactc_y;
-  const Real t175 = model.rear_radius * q0r0_y;
+  const Real t120 = model.rear_radius * q0r0_y;
   const Real q0r0_z = q013 + q002;
-  const Real rear_contactc_x = q0r2_y * t175 / rear_contactup;
+  const Real rear_contactc_x = q0r2_y * t120 / rear_contactup;
   const Real rear_contacts2bn0_y = q0r0_y * rear_contactc_z + q0r2_y * rear_contactc_x;
   const Real rear_contacts2bn0_z = rear_contactc_z * q0r0_z - q0r2_z * rear_contactc_x;
-  const Real front_contactbd0p_y = c2 * q0r1_y + (front_contactbd2p_x * q0r1_x - front_contactbd2p_z *
-      q0r1_z);
+  const Real front_contactbd0p_y = front_contactbd2p_z * q0r1_z - (front_contactbd2p_x * q0r1_x + c2 *
+      q0r1_y);
   const Real front_contactc_y = model.front_radius * (front_contactbd0p_z * front_contactbd0p_y /
       front_contactup);
   const Real front_contactc_z = model.front_radius * (t52 / front_contactup);
-  const Real front_contacts1bf2_y = Real(0.3090169943749474) * q0r0_z + Real(0.9510565162951535) * q0r0_x;
+  const Real front_contacts1bf2_y = Real(0.3090169943749474) * q0r0_z - Real(0.9510565162951535) * q0r0_x;
   const Real front_contacts1bn0_x = q0r1_x * front_contactc_z - q0r2_x * front_contactc_y;
   const Real front_contacts1bn0_y = q0r1_y * front_contactc_z + q0r2_y * front_contactc_y;
   const Real front_contacts1bn0_z = q0r1_z * front_contactc_z + q0r2_z * front_contactc_y;
   const Real front_contacts1bn2_y = Real(0.3090169943749474) * front_contacts1bn0_z - Real(0.9510565162951535)
       * front_contacts1bn0_x;
   const Real front_contacts1bn3p_x = c2 * front_contacts1bn0_y - s2 * front_contacts1bn2_y;
-  const Real front_contacts1bm_z = Real(0.9510565162951535) * front_contacts1bn0_z + (Real(0.3090169943749474)
-      * front_contacts1bn0_x + (front_contactbx3_y * q0r0_y + front_contactbx3_x * front_contacts1bf2_y));
+  const Real front_contacts1bm_z = front_contactbx3_x * front_contacts1bf2_y + (front_contactbx3_y * q0r0_y +
+      (Real(0.3090169943749474) * front_contacts1bn0_x + Real(0.9510565162951535) * front_contacts1bn0_z));
   const Real front_contactbd0p_x = c2 * q0r0_y + s2 * front_contacts1bf2_y;
   const Real front_contactc_x = model.front_radius * (front_contactbd0p_z * front_contactbd0p_x /
       front_contactup);
   const Real front_contacts2bn0_x = q0r0_x * front_contactc_z - q0r2_x * front_contactc_x;
-  const Real front_contacts2bn0_y = q0r0_y * front_contactc_z + q0r2_y * front_contactc_x;
-  const Real front_contacts2bn0_z = q0r0_z * front_contactc_z - q0r2_z * front_contactc_x;
-  const Real front_contacts2bn2_y = Real(0.3090169943749474) * front_contacts2bn0_z + Real(0.9510565162951535)
+  const Real front_contacts2bn0_y = q0r0_y * front_contactc_z - q0r2_y * front_contactc_x;
+  const Real front_contacts2bn0_z = q0r0_z * front_contactc_z + q0r2_z * front_contactc_x;
+  const Real front_contacts2bn2_y = Real(0.3090169943749474) * front_contacts2bn0_z - Real(0.9510565162951535)
       * front_contacts2bn0_x;
   const Real front_contacts2bn3p_x = c2 * front_contacts2bn0_y + s2 * front_contacts2bn2_y;
-  const Real front_contacts2bm_z = Real(0.9510565162951535) * front_contacts2bn0_z - (Real(0.3090169943749474)
-      * front_contacts2bn0_x - model.r_front_y * front_contactbd0p_y);
+  const Real front_contacts2bm_z = model.r_front_y * front_contactbd0p_y - (Real(0.3090169943749474) *
+      front_contacts2bn0_x + Real(0.9510565162951535) * front_contacts2bn0_z);
   const Real S2b_t = s2 * model.S2b_d;
   const Real S2b_xx = s2 * S2b_t - Real(0.003500000000000002);
   const Real S2b_xy = c2 * S2b_t;
@@ -1552,26 +1507,26 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real h2b_y = c2 * model.front_h_y;
   const Real h2at2_x = Real(0.9510565162951535) * h2b_y;
   const Real h2at2_z = Real(0.3090169943749474) * h2b_y;
-  const Real t280 = Real(0.3090169943749474) * S2b_yz;
-  const Real S2at2r0_y = t280 + Real(0.9510565162951535) * S2b_yy;
-  const Real t283 = Real(0.9510565162951535) * S2b_yz;
-  const Real S2at2r0_z = t283 + Real(0.04326237921249264);
-  const Real S2at2r2_y = t283 - Real(0.3090169943749474) * S2b_yy;
+  const Real t225 = Real(0.3090169943749474) * S2b_yz;
+  const Real S2at2r0_y = t225 + Real(0.9510565162951535) * S2b_yy;
+  const Real t228 = Real(0.9510565162951535) * S2b_yz;
+  const Real S2at2r0_z = t228 + Real(0.04326237921249264);
+  const Real S2at2r2_y = t228 - Real(0.3090169943749474) * S2b_yy;
   const Real h2c_x = h2at2_x + model.c6;
   const Real h2c_z = h2at2_z + model.c7;
-  const Real t298 = h2b_x * model.r_steer_x;
+  const Real t243 = h2b_x * model.r_steer_x;
   const Real S2c_yy = S2b_xx - Real(0.5002999999999995);
-  const Real t302 = h2b_x * model.r_steer_z;
-  const Real S1c_xx = Real(0.3090169943749474) * (S2at2r0_z + model.SR_x) + (Real(0.9510565162951535) *
-      S2at2r0_y + (h2at2_x + model.h_x) * model.c14) + model.c16;
-  const Real t315 = h2at2_z - model.h_z;
-  const Real S1c_zz = Real(0.9510565162951535) * (t280 - model.c18) + (Real(0.3090169943749474) * S2at2r2_y -
-      t315 * model.c17) - model.c19;
+  const Real t247 = h2b_x * model.r_steer_z;
+  const Real S1c_xx = (h2at2_x + model.h_x) * model.c14 + (Real(0.9510565162951535) * S2at2r0_y +
+      Real(0.3090169943749474) * (S2at2r0_z + model.SR_x)) + model.c16;
+  const Real t260 = h2at2_z - model.h_z;
+  const Real S1c_zz = t260 * model.c17 - (Real(0.3090169943749474) * S2at2r2_y + Real(0.9510565162951535) *
+      (t225 - model.c18)) + model.c19;
   const Real p_7_2l_x = h2b_y * model.r_steer_z;
   const Real p_7_2l_z = h2b_y * model.r_steer_x;
-  const Real p_7_2n_x = p_7_2l_x - (t283 + model.c20);
-  const Real p_7_2n_y = t298 * Real(0.3090169943749474) + (S2b_xz - t302 * Real(0.9510565162951535));
-  const Real p_7_2n_z = p_7_2l_z + (t280 - model.c21);
+  const Real p_7_2n_x = t228 - p_7_2l_x + model.c20;
+  const Real p_7_2n_y = t247 * Real(0.9510565162951535) - (S2b_xz + t243 * Real(0.3090169943749474));
+  const Real p_7_2n_z = t225 + p_7_2l_z - model.c21;
   const Real p_7_0f_x = front_contactbd0p_x * model.front_h_y;
   const Real p_7_0f_y = front_contactbd0p_y * model.front_h_y;
   const Real p_7_0f_z = front_contactbd0p_z * model.front_h_y;
@@ -1579,366 +1534,354 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real p_8_3N_y = s2 * Real(0.28);
   const Real p_8_2n_x = Real(0.9510565162951535) * p_8_3N_y;
   const Real p_8_2n_z = Real(0.3090169943749474) * p_8_3N_y;
-  const Real t366 = p_8_2n_z * Real(3.571428571428571);
-  const Real t370 = p_8_3N_x * Real(3.571428571428571);
-  const Real t373 = p_8_2n_x * Real(3.571428571428571);
-  const Real t376 = p_7_2n_z * model.c30;
-  const Real t385 = Real(0.9510565162951535) * S2b_xz + (Real(0.3090169943749474) * S2b_xy - (t302 - (p_8_3N_x
-      * t366 + p_7_2n_y * t376)));
-  const Real t400 = Real(0.9510565162951535) * S2at2r0_z - (p_8_2n_x * t366 + (p_7_2n_x * t376 +
-      (model.r_steer_x * t315 + (model.r_steer_z * (h2at2_x + model.c9) + Real(0.3090169943749474) *
-      (S2at2r0_y - model.SR_z)))) + Real(25.349999999999998));
-  const Real t403 = q0r2_y * h2c_x - (q0r2_x * h2b_x - p_7_0f_z * t376);
-  const Real t406 = q0r1_y * h2c_x + (q0r1_x * h2b_x + p_7_0f_y * t376);
-  const Real t409 = q0r0_y * h2c_x + (q0r0_x * h2b_x + p_7_0f_x * t376);
-  const Real t410 = p_7_2n_y * model.c30;
-  const Real t416 = p_7_2n_x * model.c30;
-  const Real t421 = p_7_0f_z * model.c30;
-  const Real t425 = p_7_0f_y * model.c30;
-  const Real t428 = p_7_0f_x * model.c30;
-  const Real t430 = Real(1.0) / (S1c_xx - (S2c_yy + (p_8_2n_z * t366 - p_7_2n_z * t376)));
-  const Real t431 = t385 * t430;
-  const Real t444 = Real(0.9510565162951535) * S2b_xy - (Real(0.3090169943749474) * S2b_xz + (t298 - (p_8_2n_x
-      * t370 - (p_7_2n_x * t410 + t400 * t431))));
-  const Real t448 = q0r2_z * h2c_x - (q0r2_x * h2c_z + (p_7_0f_z * t410 - t403 * t431));
-  const Real t452 = q0r1_z * h2c_x + (q0r1_x * h2c_z - (p_7_0f_y * t410 - t406 * t431));
-  const Real t456 = q0r0_z * h2c_x - (q0r0_x * h2c_z - (p_7_0f_x * t410 - t409 * t431));
-  const Real t457 = t400 * t430;
-  const Real t462 = t403 * t430;
-  const Real t466 = t406 * t430;
-  const Real t469 = t409 * t430;
-  const Real t471 = Real(1.0) / (S1c_xx - (S1c_zz + (p_8_3N_x * t370 - (p_7_2n_y * t410 - t385 * t431))) -
+  const Real t311 = p_8_2n_z * Real(3.571428571428571);
+  const Real t315 = p_8_3N_x * Real(3.571428571428571);
+  const Real t318 = p_8_2n_x * Real(3.571428571428571);
+  const Real t321 = p_7_2n_z * model.c29;
+  const Real t330 = p_7_2n_y * t321 - (p_8_3N_x * t311 - (t247 - (Real(0.3090169943749474) * S2b_xy +
+      Real(0.9510565162951535) * S2b_xz)));
+  const Real t345 = Real(0.3090169943749474) * (S2at2r0_y - model.SR_z) + (model.r_steer_z * (h2at2_x +
+      model.c9) + (model.r_steer_x * t260 - (p_7_2n_x * t321 + (Real(0.9510565162951535) * S2at2r0_z -
+      p_8_2n_x * t311)))) + Real(25.349999999999998);
+  const Real t348 = p_7_0f_z * t321 + (q0r2_x * h2b_x - q0r2_y * h2c_x);
+  const Real t351 = p_7_0f_y * t321 - (q0r1_x * h2b_x + q0r1_y * h2c_x);
+  const Real t354 = p_7_0f_x * t321 - (q0r0_x * h2b_x - q0r0_y * h2c_x);
+  const Real t355 = p_7_2n_y * model.c29;
+  const Real t361 = p_7_2n_x * model.c29;
+  const Real t366 = p_7_0f_z * model.c29;
+  const Real t370 = p_7_0f_y * model.c29;
+  const Real t373 = p_7_0f_x * model.c29;
+  const Real t375 = Real(1.0) / (p_7_2n_z * t321 - (p_8_2n_z * t311 + (S2c_yy - S1c_xx)));
+  const Real t376 = t330 * t375;
+  const Real t389 = t345 * t376 + (p_7_2n_x * t355 - (p_8_2n_x * t315 - (t243 + (Real(0.3090169943749474) *
+      S2b_xz - Real(0.9510565162951535) * S2b_xy))));
+  const Real t393 = t348 * t376 - (p_7_0f_z * t355 + (q0r2_x * h2c_z - q0r2_z * h2c_x));
+  const Real t397 = t351 * t376 - (p_7_0f_y * t355 - (q0r1_x * h2c_z + q0r1_z * h2c_x));
+  const Real t401 = t354 * t376 - (p_7_0f_x * t355 - (q0r0_x * h2c_z + q0r0_z * h2c_x));
+  const Real t402 = t345 * t375;
+  const Real t407 = t348 * t375;
+  const Real t411 = t351 * t375;
+  const Real t414 = t354 * t375;
+  const Real t416 = Real(1.0) / (t330 * t376 - (p_7_2n_y * t355 - (p_8_3N_x * t315 - (S1c_xx + S1c_zz))) +
       Real(0.12));
-  const Real t472 = t444 * t471;
-  const Real t483 = q0r2_z * h2b_x - (q0r2_y * h2c_z + (p_7_0f_z * t416 + (t403 * t457 - t448 * t472)));
-  const Real t488 = q0r1_z * h2b_x - (q0r1_y * h2c_z + (p_7_0f_y * t416 + (t406 * t457 - t452 * t472)));
-  const Real t493 = q0r0_z * h2b_x + (q0r0_y * h2c_z + (p_7_0f_x * t416 + (t409 * t457 + t456 * t472)));
-  const Real t494 = t448 * t471;
-  const Real t498 = t452 * t471;
-  const Real t501 = t456 * t471;
-  const Real t503 = Real(1.0) / (S1c_zz + (S2c_yy + (p_8_2n_x * t373 - (p_7_2n_x * t416 - (t400 * t457 + t444
-      * t472)))));
-  const Real t504 = t483 * t503;
-  const Real t514 = t406 * t462 - (p_7_0f_y * t421 - (t452 * t494 - t488 * t504));
-  const Real t518 = t409 * t462 - (p_7_0f_x * t421 + (t456 * t494 - t493 * t504));
-  const Real t519 = t488 * t503;
-  const Real t522 = t493 * t503;
-  const Real t524 = Real(1.0) / (p_7_0f_z * t421 - (t403 * t462 + (t448 * t494 - t483 * t504) - Real(94.0)));
-  const Real t525 = t514 * t524;
-  const Real t536 = t409 * t466 - (p_7_0f_x * t425 + (t456 * t498 - (t493 * t519 + t518 * t525)));
-  const Real t537 = t518 * t524;
-  const Real t539 = Real(1.0) / (p_7_0f_y * t425 + (Real(94.0) - (t406 * t466 + (t452 * t498 - (t488 * t519 -
-      t514 * t525)))));
-  const Real t540 = t536 * t539;
-  const Real t548 = Real(1.0) / (p_7_0f_x * t428 + (Real(94.0) - (t409 * t469 + (t456 * t501 - (t493 * t522 -
-      (t518 * t537 + t536 * t540))))));
-  const Real t551 = t57 * t129 - (t60 * t140 + t149 * t431);
-  const Real t561 = t59 * t119 + (t58 * t96 + (t60 * t129 + (t57 * t140 - (t149 * t457 + t472 * t551))));
-  const Real t568 = t149 * t462 + (Real(1.0) - (t494 * t551 + t504 * t561));
-  const Real t574 = t498 * t551 - (t149 * t466 - (t519 * t561 - t525 * t568));
-  const Real t580 = t501 * t551 + (t149 * t469 + (t522 * t561 + (t537 * t568 - t540 * t574)));
-  const Real t582 = model.rear_radius * q0r0_x + rear_contacts1bn0_z * t431;
-  const Real t591 = q0r2_x * rear_contactc_y - (q0r1_x * rear_contactc_z + (t175 + (rear_contacts1bn0_z * t457
-      - t472 * t582)));
-  const Real t597 = t494 * t582 + (rear_contacts1bn0_z * t462 - t504 * t591);
-  const Real t603 = t498 * t582 + (rear_contacts1bn0_z * t466 - (t519 * t591 - t525 * t597));
-  const Real t610 = rear_contacts1bn0_z * t469 - (Real(1.0) + (t501 * t582 - (t522 * t591 + (t537 * t597 +
-      t540 * t603))));
-  const Real t612 = model.rear_radius * q0r1_x + rear_contacts2bn0_z * t431;
-  const Real t621 = q0r0_x * rear_contactc_z - (t162 + (q0r2_x * rear_contactc_x + (rear_contacts2bn0_z * t457
-      - t472 * t612)));
-  const Real t627 = t494 * t612 + (rear_contacts2bn0_z * t462 - t504 * t621);
-  const Real t634 = rear_contacts2bn0_z * t466 - (Real(1.0) - (t498 * t612 - (t519 * t621 - t525 * t627)));
-  const Real t640 = t501 * t612 - (rear_contacts2bn0_z * t469 + (t522 * t621 + (t537 * t627 + t540 * t634)));
-  const Real t645 = t57 * t120 + (t60 * t99 - (t58 * t132 - (t59 * t143 + t87 * t376)));
-  const Real t656 = t58 * t120 + (t59 * t99 + (t57 * t132 - (t60 * t143 + (t87 * t410 - t431 * t645))));
-  const Real t667 = t59 * t120 - (t58 * t99 + (t60 * t132 + (t57 * t143 + (t87 * t416 + (t457 * t645 - t472 *
-      t656)))));
-  const Real t675 = t87 * t421 + (Real(1.0) - (t462 * t645 + (t494 * t656 - t504 * t667)));
-  const Real t682 = t466 * t645 - (t87 * t425 - (t498 * t656 - (t519 * t667 + t525 * t675)));
-  const Real t689 = t469 * t645 - (t87 * t428 + (t501 * t656 - (t522 * t667 - (t537 * t675 - t540 * t682))));
-  const Real t697 = front_contactbx3_x * q0r0_x + (front_contacts1bn0_z + (front_contactbx2p_x * q0r0_y +
-      (front_contacts1bn3p_x * t366 + front_contacts1bm_z * t376)));
-  const Real t708 = front_contactbx2p_z * q0r0_x - (front_contacts1bn0_y + (front_contactbx2p_x * q0r0_z -
-      (front_contacts1bn3p_x * t370 - (front_contacts1bm_z * t410 - t431 * t697))));
-  const Real t719 = front_contactbx2p_z * q0r0_y + (front_contacts1bn0_x + (front_contactbx3_x * q0r0_z -
-      (front_contacts1bn3p_x * t373 - (front_contacts1bm_z * t416 + (t457 * t697 - t472 * t708)))));
-  const Real t726 = t462 * t697 - (front_contacts1bm_z * t421 - (t494 * t708 + t504 * t719));
-  const Real t733 = t466 * t697 - (front_contacts1bm_z * t425 - (t498 * t708 + (t519 * t719 + t525 * t726)));
-  const Real t741 = front_contacts1bm_z * t428 + (Real(1.0) - (t469 * t697 - (t501 * t708 + (t522 * t719 -
-      (t537 * t726 + t540 * t733)))));
-  const Real t749 = front_contactbx3_x * q0r1_x + (front_contacts2bn0_z + (front_contactbx2p_x * q0r1_y -
-      (front_contacts2bn3p_x * t366 - front_contacts2bm_z * t376)));
-  const Real t760 = front_contactbx2p_z * q0r1_x + (front_contacts2bn0_y + (front_contactbx2p_x * q0r1_z -
-      (front_contacts2bn3p_x * t370 + (front_contacts2bm_z * t410 - t431 * t749))));
-  const Real t771 = front_contactbx2p_z * q0r1_y - (front_contacts2bn0_x + (front_contactbx3_x * q0r1_z -
-      (front_contacts2bn3p_x * t373 + (front_contacts2bm_z * t416 + (t457 * t749 - t472 * t760)))));
-  const Real t778 = t462 * t749 - (front_contacts2bm_z * t421 - (t494 * t760 + t504 * t771));
-  const Real t786 = front_contacts2bm_z * t425 + (Real(1.0) - (t466 * t749 + (t498 * t760 + (t519 * t771 +
-      t525 * t778))));
-  const Real t793 = t469 * t749 - (front_contacts2bm_z * t428 + (t501 * t760 + (t522 * t771 - (t537 * t778 -
-      t540 * t786))));
-  const Real t806 = t548 * t610;
-  const Real t807 = t539 * t603;
-  const Real t808 = t524 * t597;
-  const Real t809 = t503 * t591;
-  const Real t810 = t471 * t582;
-  const Real t811 = rear_contacts1bn0_z * t430;
-  const Real t822 = t574 * t807 - (t580 * t806 + (t568 * t808 - (t561 * t809 + (t551 * t810 - t149 * t811))));
-  const Real t832 = t548 * t640;
-  const Real t833 = t539 * t634;
-  const Real t834 = t524 * t627;
-  const Real t835 = t503 * t621;
-  const Real t836 = t471 * t612;
-  const Real t837 = rear_contacts2bn0_z * t430;
-  const Real t838 = rear_contacts2bn0_y * Real(8.333333333333334);
-  const Real t849 = t574 * t833 + (t580 * t832 - (t568 * t834 - (t561 * t835 + (t551 * t836 - t149 * t837))));
-  const Real t864 = t548 * t689;
-  const Real t865 = t539 * t682;
-  const Real t866 = t524 * t675;
-  const Real t867 = t503 * t667;
-  const Real t868 = t471 * t656;
-  const Real t869 = t430 * t645;
-  const Real t880 = t574 * t865 - (t580 * t864 - (t568 * t866 + (t561 * t867 + (t551 * t868 - t149 * t869))));
-  const Real t901 = t548 * t741;
-  const Real t902 = t539 * t733;
-  const Real t903 = t524 * t726;
-  const Real t904 = t503 * t719;
-  const Real t905 = t471 * t708;
-  const Real t906 = t430 * t697;
-  const Real t907 = front_contacts1bm_z * model.c30;
-  const Real t918 = t574 * t902 + (t580 * t901 - (t568 * t903 + (t561 * t904 - (t551 * t905 - t149 * t906))));
-  const Real t947 = t548 * t793;
-  const Real t948 = t539 * t786;
-  const Real t949 = t524 * t778;
-  const Real t950 = t503 * t771;
-  const Real t951 = t471 * t760;
-  const Real t952 = t430 * t749;
-  const Real t953 = front_contacts2bm_z * model.c30;
-  const Real t954 = front_contacts2bn3p_x * Real(3.571428571428571);
-  const Real t965 = t574 * t948 + (t580 * t947 + (t568 * t949 + (t561 * t950 - (t551 * t951 - t149 * t952))));
-  const Real t1008 = Real(1.0) / (t580 * (t548 * t580) + (t574 * (t539 * t574) + (t568 * (t524 * t568) - (t561
-      * (t503 * t561) - (t551 * (t471 * t551) + t149 * (t149 * t430)))) + Real(1.8087085566416913e-12)));
-  const Real t1009 = t822 * t1008;
-  const Real t1020 = t849 * t1008;
-  const Real t1028 = t603 * t833 - (t610 * t832 - (t597 * t834 - (t591 * t835 - (t582 * t836 +
-      (rear_contacts1bn0_z * t837 - (rear_contacts1bn0_y * t838 + t822 * t1020))))));
-  const Real t1030 = t880 * t1008;
-  const Real t1037 = t603 * t865 + (t610 * t864 - (t597 * t866 + (t591 * t867 - (t582 * t868 +
-      (rear_contacts1bn0_z * t869 - t822 * t1030)))));
-  const Real t1040 = t918 * t1008;
-  const Real t1047 = t603 * t902 - (t610 * t901 - (t597 * t903 + (t591 * t904 + (t582 * t905 +
-      (rear_contacts1bn0_z * t906 - t822 * t1040)))));
-  const Real t1051 = t965 * t1008;
-  const Real t1058 = t603 * t948 - (t610 * t947 + (t597 * t949 + (t591 * t950 + (t582 * t951 +
-      (rear_contacts1bn0_z * t952 + t822 * t1051)))));
-  const Real t1063 = Real(1.0) / (t610 * t806 + (t603 * t807 + (t597 * t808 - (t591 * t809 - (t582 * t810 +
-      (rear_contacts1bn0_z * t811 + (rear_contacts1bn0_y * rear_contacts1bn0_y * Real(8.333333333333334) -
-      t822 * t1009))))) + Real(7.806783314072456e-11)));
-  const Real t1064 = t1028 * t1063;
-  const Real t1076 = t1037 * t1063;
-  const Real t1084 = t634 * t865 - (t640 * t864 + (t627 * t866 + (t621 * t867 - (t612 * t868 +
-      (rear_contacts2bn0_z * t869 - (t849 * t1030 + t1028 * t1076))))));
-  const Real t1086 = t1047 * t1063;
-  const Real t1094 = t634 * t902 + (t640 * t901 + (t627 * t903 + (t621 * t904 + (t612 * t905 +
-      (rear_contacts2bn0_z * t906 - (t849 * t1040 + t1028 * t1086))))));
-  const Real t1097 = t1058 * t1063;
-  const Real t1105 = t634 * t948 + (t640 * t947 - (t627 * t949 + (t621 * t950 + (t612 * t951 +
-      (rear_contacts2bn0_z * t952 + (t849 * t1051 + t1028 * t1097))))));
-  const Real t1109 = Real(1.0) / (t640 * t832 + (t634 * t833 + (t627 * t834 - (t621 * t835 - (t612 * t836 +
-      (rear_contacts2bn0_z * t837 + (rear_contacts2bn0_y * t838 - (t849 * t1020 + t1028 * t1064)))))) +
-      Real(8.816994788327498e-12)));
-  const Real t1110 = t1084 * t1109;
-  const Real t1123 = t1094 * t1109;
-  const Real t1133 = t682 * t902 - (t689 * t901 + (t675 * t903 - (t667 * t904 + (t656 * t905 + (t645 * t906 -
-      (t87 * t907 + (t880 * t1040 + (t1037 * t1086 + t1084 * t1123))))))));
-  const Real t1135 = t1105 * t1109;
-  const Real t1145 = t682 * t948 - (t689 * t947 - (t675 * t949 - (t667 * t950 + (t656 * t951 + (t645 * t952 -
-      (t87 * t953 - (t880 * t1051 + (t1037 * t1097 + t1084 * t1135))))))));
-  const Real t1148 = Real(1.0) / (t689 * t864 + (t682 * t865 + (t675 * t866 - (t667 * t867 - (t656 * t868 +
-      (t645 * t869 - (model.c30 * (t87 * t87) + (t880 * t1030 + (t1037 * t1076 + t1084 * t1110))))))) +
-      Real(3.988016169236579e-12)));
-  const Real t1149 = t1133 * t1148;
-  const Real t1164 = t1145 * t1148;
-  const Real t1176 = t733 * t948 + (t741 * t947 - (t726 * t949 - (t719 * t950 - (t708 * t951 + (t697 * t952 -
-      (front_contacts1bm_z * t953 + (front_contacts1bn3p_x * t954 - (t918 * t1051 + (t1047 * t1097 + (t1094 *
-      t1135 + t1133 * t1164))))))))));
-  const Real t1178 = Real(1.0) / (t741 * t901 + (t733 * t902 + (t726 * t903 - (t719 * t904 - (t708 * t905 +
-      (t697 * t906 - (front_contacts1bm_z * t907 - (Real(3.571428571428571) * (front_contacts1bn3p_x *
-      front_contacts1bn3p_x) - (t918 * t1040 + (t1047 * t1086 + (t1094 * t1123 + t1133 * t1149))))))))) +
-      Real(4.6476630875276904e-11)));
-  const Real t1179 = t1176 * t1178;
-  const Real t1195 = Real(1.0) / (t793 * t947 + (t786 * t948 + (t778 * t949 - (t771 * t950 - (t760 * t951 +
-      (t749 * t952 - (front_contacts2bm_z * t953 - (front_contacts2bn3p_x * t954 - (t965 * t1051 + (t1058 *
-      t1097 + (t1105 * t1135 + (t1145 * t1164 + t1176 * t1179)))))))))) + Real(2.7054786900152528e-11)));
-  const Real t1196 = g_rear_contact * t1009;
-  const Real t1202 = g_rear_contact * t1020 - t1064 * t1196;
-  const Real t1213 = q0r2_x * front_contactbx2p_x + (state.y[2] + (q0r2_y * front_contactbx3_x + (q0r2_z *
-      front_contactbx2p_z + (front_contactup * model.front_radius - (g_rear_contact * t1030 - (t1076 * t1196 +
-      t1110 * t1202))))));
-  const Real t1219 = t1086 * t1196 - (g_rear_contact * t1040 - (t1123 * t1202 - t1149 * t1213));
-  const Real t1231 = t1195 * (t1097 * t1196 - (g_rear_contact * t1051 - (t1135 * t1202 - (t1164 * t1213 +
-      t1179 * t1219))));
-  const Real t1233 = t1178 * t1219 - t1179 * t1231;
-  const Real t1237 = t1149 * t1233 - (t1148 * t1213 - t1164 * t1231);
-  const Real t1243 = t1110 * t1237 - (t1109 * t1202 + (t1123 * t1233 + t1135 * t1231));
-  const Real t1251 = t1064 * t1243 + (t1063 * t1196 - (t1076 * t1237 - (t1086 * t1233 + t1097 * t1231)));
-  const Real t1261 = t1009 * t1251 + (g_rear_contact * t1008 - (t1020 * t1243 - (t1030 * t1237 - (t1040 *
-      t1233 + t1051 * t1231))));
-  const Real t1339 = t548 * (t610 * t1251 + (t580 * t1261 + (t640 * t1243 + (t689 * t1237 + (t741 * t1233 +
-      t793 * t1231)))));
-  const Real t1342 = t539 * (t603 * t1251 - (t574 * t1261 + (t634 * t1243 - (t682 * t1237 - (t733 * t1233 +
-      t786 * t1231))))) + t540 * t1339;
-  const Real t1347 = t537 * t1339 + (t524 * (t597 * t1251 + (t568 * t1261 - (t627 * t1243 + (t675 * t1237 +
-      (t726 * t1233 - t778 * t1231))))) + t525 * t1342);
-  const Real t1354 = t522 * t1339 - (t503 * (t591 * t1251 + (t561 * t1261 - (t621 * t1243 - (t667 * t1237 +
-      (t719 * t1233 - t771 * t1231))))) + (t519 * t1342 + t504 * t1347));
-  const Real t1363 = t501 * t1339 - (t471 * (t582 * t1251 - (t551 * t1261 + (t612 * t1243 - (t656 * t1237 -
-      (t708 * t1233 - t760 * t1231))))) + (t498 * t1342 + (t494 * t1347 + t472 * t1354)));
-  const Real t1374 = t469 * t1339 + (t430 * (rear_contacts1bn0_z * t1251 + (t149 * t1261 -
-      (rear_contacts2bn0_z * t1243 - (t645 * t1237 - (t697 * t1233 - t749 * t1231))))) + (t466 * t1342 + (t462
-      * t1347 - (t457 * t1354 + t431 * t1363))));
-  const Real t1376 = t1363 - Real(8.333333333333334) * (rear_contacts1bn0_y * t1251 + rear_contacts2bn0_y *
-      t1243);
-  const Real t1377 = model.c30 * (front_contacts1bm_z * t1233 - (t87 * t1237 + front_contacts2bm_z * t1231));
-  const Real t1378 = t428 * t1339;
-  const Real t1379 = t425 * t1342;
-  const Real t1380 = t421 * t1347;
-  const Real t1381 = t416 * t1354;
-  const Real t1382 = t410 * t1363;
-  const Real t1383 = t376 * t1374;
-  const Real t1389 = t1378 - (t1377 - (t1379 + (t1380 + (t1381 - (t1382 + t1383)))));
-  const Real t1396 = t373 * t1354 - (Real(3.571428571428571) * (front_contacts1bn3p_x * t1233 +
-      front_contacts2bn3p_x * t1231) + (t370 * t1363 - t366 * t1374));
-  const Real t1407 = Real(0.5) * t1354;
-  const Real t1408 = Real(0.5) * t1363;
-  const Real t1409 = Real(0.5) * t1374;
-  const Real t1416 = state.y[3] * t1407 - (state.y[4] + (state.y[5] * t1409 + state.y[6] * t1408));
-  const Real t1423 = state.y[3] * t1408 - (state.y[5] - (state.y[6] * t1407 + state.y[4] * t1409));
-  const Real t1427 = state.y[4] * t1407 + (state.y[3] + (state.y[5] * t1408 - state.y[6] * t1409));
-  const Real t1433 = state.y[3] * t1409 + (state.y[6] - (state.y[4] * t1408 - state.y[5] * t1407));
-  const Real t1442 = Real(1.0) / detail::square_root(t1416 * t1416 + (t1427 * t1427 + (t1423 * t1423 + t1433 *
-      t1433)));
-  const Real t1443 = t1427 * t1442;
-  const Real t1444 = t1416 * t1442;
-  const Real t1445 = t1423 * t1442;
-  const Real t1446 = t1433 * t1442;
-  const Real q0d1_2 = Real(2.0) * t1444;
-  const Real q0d2_2 = Real(2.0) * t1445;
-  const Real q0d3_2 = Real(2.0) * t1446;
-  const Real q011_2 = t1444 * q0d1_2;
-  const Real q022_2 = t1445 * q0d2_2;
-  const Real q023_2 = t1445 * q0d3_2;
-  const Real q001_2 = t1443 * q0d1_2;
-  const Real q0r2_y_2 = q023_2 + q001_2;
-  const Real t1455 = Real(1.0) - q011_2;
-  const Real q0r2_z_2 = q022_2 - t1455;
-  const Real t1458 = Real(1.0) - q0r2_y_2 * q0r2_y_2;
-  const Real rear_contactup_2 = detail::square_root(t1458);
-  const Real q013_2 = t1444 * q0d3_2;
-  const Real q002_2 = t1443 * q0d2_2;
-  const Real q0r2_x_2 = q013_2 - q002_2;
-  Real t1463, t1464;
-  detail::sine_cosine(t1377, t1463, t1464);
-  Real t1465, t1466;
-  detail::sine_cosine(t1378, t1465, t1466);
-  const Real t1469 = t1464 * t1465 - t1463 * t1466;
-  const Real t1472 = t1463 * t1465 + t1464 * t1466;
-  Real t1473, t1474;
-  detail::sine_cosine(t1379, t1473, t1474);
-  const Real t1477 = t1472 * t1473 + t1469 * t1474;
-  const Real t1480 = t1469 * t1473 - t1472 * t1474;
-  Real t1481, t1482;
-  detail::sine_cosine(t1380, t1481, t1482);
-  const Real t1485 = t1480 * t1481 - t1477 * t1482;
-  const Real t1488 = t1477 * t1481 + t1480 * t1482;
-  Real t1489, t1490;
-  detail::sine_cosine(t1381, t1489, t1490);
-  const Real t1493 = t1488 * t1489 + t1485 * t1490;
-  const Real t1496 = t1485 * t1489 - t1488 * t1490;
-  Real t1497, t1498;
-  detail::sine_cosine(t1382, t1497, t1498);
-  const Real t1501 = t1496 * t1497 + t1493 * t1498;
-  const Real t1504 = t1493 * t1497 - t1496 * t1498;
-  Real t1505, t1506;
-  detail::sine_cosine(t1383, t1505, t1506);
-  const Real t1509 = t1504 * t1505 - t1501 * t1506;
-  const Real t1512 = t1501 * t1505 + t1504 * t1506;
-  const Real s2_2 = c2 * t1509 + s2 * t1512;
-  const Real c2_2 = s2 * t1509 - c2 * t1512;
+  const Real t417 = t389 * t416;
+  const Real t428 = t393 * t417 - (t348 * t402 + (p_7_0f_z * t361 + (q0r2_y * h2c_z - q0r2_z * h2b_x)));
+  const Real t433 = t397 * t417 - (t351 * t402 + (p_7_0f_y * t361 + (q0r1_y * h2c_z - q0r1_z * h2b_x)));
+  const Real t438 = t401 * t417 - (t354 * t402 + (p_7_0f_x * t361 - (q0r0_y * h2c_z + q0r0_z * h2b_x)));
+  const Real t439 = t393 * t416;
+  const Real t443 = t397 * t416;
+  const Real t446 = t401 * t416;
+  const Real t448 = Real(1.0) / (t389 * t417 - (t345 * t402 - (p_7_2n_x * t361 - (p_8_2n_x * t318 + (S2c_yy -
+      S1c_zz)))));
+  const Real t449 = t428 * t448;
+  const Real t459 = t433 * t449 - (t397 * t439 + (p_7_0f_y * t366 - t351 * t407));
+  const Real t463 = t438 * t449 - (t401 * t439 + (p_7_0f_x * t366 - t354 * t407));
+  const Real t464 = t433 * t448;
+  const Real t467 = t438 * t448;
+  const Real t469 = Real(1.0) / (t428 * t449 - (t393 * t439 + (p_7_0f_z * t366 - t348 * t407)) - Real(94.0));
+  const Real t470 = t459 * t469;
+  const Real t481 = t463 * t470 - (t438 * t464 - (t401 * t443 + (p_7_0f_x * t370 - t354 * t411)));
+  const Real t482 = t463 * t469;
+  const Real t484 = Real(1.0) / (t459 * t470 - (t433 * t464 - (t397 * t443 - (t351 * t411 - (p_7_0f_y * t370 +
+      Real(94.0))))));
+  const Real t485 = t481 * t484;
+  const Real t493 = Real(1.0) / (t481 * t485 - (t463 * t482 - (t438 * t467 - (t401 * t446 - (t354 * t414 -
+      (p_7_0f_x * t373 + Real(94.0)))))));
+  const Real t495 = model.rear_radius * q0r2_x + t96 * t376;
+  const Real t503 = t417 * t495 - (t96 * t402 - (q0r2_y * model.rear_radius + t85 * t92));
+  const Real t510 = t449 * t503 - (t439 * t495 - (Real(1.0) + t96 * t407));
+  const Real t516 = t470 * t510 - (t464 * t503 + (t96 * t411 - t443 * t495));
+  const Real t522 = t485 * t516 - (t482 * t510 - (t467 * t503 + (t96 * t414 - t446 * t495)));
+  const Real t524 = model.rear_radius * q0r0_x + rear_contacts1bn0_z * t376;
+  const Real t533 = t417 * t524 - (rear_contacts1bn0_z * t402 - (t120 + (q0r1_x * rear_contactc_z - q0r2_x *
+      rear_contactc_y)));
+  const Real t539 = t449 * t533 + (rear_contacts1bn0_z * t407 - t439 * t524);
+  const Real t545 = t470 * t539 - (t464 * t533 + (rear_contacts1bn0_z * t411 - t443 * t524));
+  const Real t552 = t485 * t545 - (t482 * t539 - (t467 * t533 - (t446 * t524 + (Real(1.0) -
+      rear_contacts1bn0_z * t414))));
+  const Real t554 = model.rear_radius * q0r1_x - rear_contacts2bn0_z * t376;
+  const Real t563 = t417 * t554 + (rear_contacts2bn0_z * t402 - (q0r2_x * rear_contactc_x + (t107 + q0r0_x *
+      rear_contactc_z)));
+  const Real t569 = t449 * t563 - (rear_contacts2bn0_z * t407 + t439 * t554);
+  const Real t576 = t470 * t569 - (t464 * t563 - (t443 * t554 + (Real(1.0) + rear_contacts2bn0_z * t411)));
+  const Real t582 = t485 * t576 - (t482 * t569 - (t467 * t563 - (rear_contacts2bn0_z * t414 + t446 * t554)));
+  const Real t585 = t79 * t321 + (q0r2_x * t75 - q0r2_y * t76);
+  const Real t594 = t376 * t585 - (t79 * t355 + (q0r2_x * t73 - t76 * t85));
+  const Real t603 = t417 * t594 - (t402 * t585 + (t79 * t361 + (q0r2_y * t73 - t75 * t85)));
+  const Real t611 = t449 * t603 - (t439 * t594 - (t407 * t585 - (Real(1.0) + t79 * t366)));
+  const Real t618 = t470 * t611 - (t464 * t603 - (t443 * t594 + (t79 * t370 - t411 * t585)));
+  const Real t625 = t485 * t618 - (t482 * t611 - (t467 * t603 - (t446 * t594 + (t79 * t373 - t414 * t585))));
+  const Real t633 = front_contacts1bm_z * t321 + (front_contacts1bn3p_x * t311 + (front_contactbx2p_x * q0r0_y
+      + (front_contacts1bn0_z - front_contactbx3_x * q0r0_x)));
+  const Real t644 = t376 * t633 - (front_contacts1bm_z * t355 + (front_contacts1bn3p_x * t315 -
+      (front_contactbx2p_x * q0r0_z + (front_contacts1bn0_y + front_contactbx2p_z * q0r0_x))));
+  const Real t655 = t417 * t644 - (t402 * t633 + (front_contacts1bm_z * t361 + (front_contacts1bn3p_x * t318 -
+      (front_contactbx3_x * q0r0_z + (front_contacts1bn0_x + front_contactbx2p_z * q0r0_y)))));
+  const Real t662 = t449 * t655 - (t439 * t644 + (front_contacts1bm_z * t366 - t407 * t633));
+  const Real t669 = t470 * t662 - (t464 * t655 - (t443 * t644 + (front_contacts1bm_z * t370 - t411 * t633)));
+  const Real t677 = t485 * t669 - (t482 * t662 - (t467 * t655 - (t446 * t644 - (t414 * t633 - (Real(1.0) +
+      front_contacts1bm_z * t373)))));
+  const Real t685 = front_contacts2bm_z * t321 + (front_contacts2bn3p_x * t311 - (front_contactbx2p_x * q0r1_y
+      + (front_contacts2bn0_z + front_contactbx3_x * q0r1_x)));
+  const Real t696 = t376 * t685 - (front_contacts2bm_z * t355 + (front_contacts2bn3p_x * t315 -
+      (front_contactbx2p_x * q0r1_z + (front_contacts2bn0_y + front_contactbx2p_z * q0r1_x))));
+  const Real t707 = t417 * t696 - (t402 * t685 + (front_contacts2bm_z * t361 + (front_contacts2bn3p_x * t318 -
+      (front_contactbx3_x * q0r1_z - (front_contacts2bn0_x + front_contactbx2p_z * q0r1_y)))));
+  const Real t714 = t449 * t707 - (t439 * t696 + (front_contacts2bm_z * t366 - t407 * t685));
+  const Real t722 = t470 * t714 - (t464 * t707 - (t443 * t696 - (t411 * t685 - (Real(1.0) +
+      front_contacts2bm_z * t370))));
+  const Real t729 = t485 * t722 - (t482 * t714 - (t467 * t707 - (t446 * t696 + (front_contacts2bm_z * t373 -
+      t414 * t685))));
+  const Real t742 = t493 * t552;
+  const Real t743 = t484 * t545;
+  const Real t744 = t469 * t539;
+  const Real t745 = t448 * t533;
+  const Real t746 = t416 * t524;
+  const Real t747 = rear_contacts1bn0_z * t375;
+  const Real t758 = t96 * t747 - (t495 * t746 - (t503 * t745 - (t510 * t744 + (t522 * t742 - t516 * t743))));
+  const Real t768 = t493 * t582;
+  const Real t769 = t484 * t576;
+  const Real t770 = t469 * t569;
+  const Real t771 = t448 * t563;
+  const Real t772 = t416 * t554;
+  const Real t773 = rear_contacts2bn0_z * t375;
+  const Real t774 = rear_contacts2bn0_y * Real(8.333333333333334);
+  const Real t785 = t96 * t773 + (t495 * t772 - (t503 * t771 - (t510 * t770 + (t522 * t768 - t516 * t769))));
+  const Real t800 = t493 * t625;
+  const Real t801 = t484 * t618;
+  const Real t802 = t469 * t611;
+  const Real t803 = t448 * t603;
+  const Real t804 = t416 * t594;
+  const Real t805 = t375 * t585;
+  const Real t816 = t96 * t805 - (t495 * t804 - (t503 * t803 - (t510 * t802 + (t522 * t800 - t516 * t801))));
+  const Real t837 = t493 * t677;
+  const Real t838 = t484 * t669;
+  const Real t839 = t469 * t662;
+  const Real t840 = t448 * t655;
+  const Real t841 = t416 * t644;
+  const Real t842 = t375 * t633;
+  const Real t843 = front_contacts1bm_z * model.c29;
+  const Real t854 = t96 * t842 - (t495 * t841 - (t503 * t840 - (t510 * t839 + (t522 * t837 - t516 * t838))));
+  const Real t883 = t493 * t729;
+  const Real t884 = t484 * t722;
+  const Real t885 = t469 * t714;
+  const Real t886 = t448 * t707;
+  const Real t887 = t416 * t696;
+  const Real t888 = t375 * t685;
+  const Real t889 = front_contacts2bm_z * model.c29;
+  const Real t890 = front_contacts2bn3p_x * Real(3.571428571428571);
+  const Real t901 = t96 * t888 - (t495 * t887 - (t503 * t886 - (t510 * t885 + (t522 * t883 - t516 * t884))));
+  const Real t944 = Real(1.0) / (t96 * (t96 * t375) - (t495 * (t416 * t495) - (t503 * (t448 * t503) - (t510 *
+      (t469 * t510) + (t522 * (t493 * t522) - t516 * (t484 * t516))))) + Real(1.8087085566416913e-12));
+  const Real t945 = t758 * t944;
+  const Real t956 = t785 * t944;
+  const Real t964 = t758 * t956 + (rear_contacts1bn0_y * t774 - (rear_contacts1bn0_z * t773 + (t524 * t772 -
+      (t533 * t771 - (t539 * t770 + (t552 * t768 - t545 * t769))))));
+  const Real t966 = t816 * t944;
+  const Real t973 = t758 * t966 - (rear_contacts1bn0_z * t805 - (t524 * t804 - (t533 * t803 - (t539 * t802 +
+      (t552 * t800 - t545 * t801)))));
+  const Real t976 = t854 * t944;
+  const Real t983 = t758 * t976 - (rear_contacts1bn0_z * t842 - (t524 * t841 - (t533 * t840 - (t539 * t839 +
+      (t552 * t837 - t545 * t838)))));
+  const Real t987 = t901 * t944;
+  const Real t994 = t758 * t987 - (rear_contacts1bn0_z * t888 - (t524 * t887 - (t533 * t886 - (t539 * t885 +
+      (t552 * t883 - t545 * t884)))));
+  const Real t999 = Real(1.0) / (t758 * t945 - (rear_contacts1bn0_y * rear_contacts1bn0_y *
+      Real(8.333333333333334) + (rear_contacts1bn0_z * t747 - (t524 * t746 - (t533 * t745 - (t539 * t744 +
+      (t552 * t742 - t545 * t743)))))) - Real(7.806783314072456e-11));
+  const Real t1000 = t964 * t999;
+  const Real t1012 = t973 * t999;
+  const Real t1020 = t964 * t1012 - (t785 * t966 - (rear_contacts2bn0_z * t805 + (t554 * t804 - (t563 * t803 -
+      (t569 * t802 + (t582 * t800 - t576 * t801))))));
+  const Real t1022 = t983 * t999;
+  const Real t1030 = t964 * t1022 - (t785 * t976 - (rear_contacts2bn0_z * t842 + (t554 * t841 - (t563 * t840 -
+      (t569 * t839 + (t582 * t837 - t576 * t838))))));
+  const Real t1033 = t994 * t999;
+  const Real t1041 = t964 * t1033 - (t785 * t987 - (rear_contacts2bn0_z * t888 + (t554 * t887 - (t563 * t886 -
+      (t569 * t885 + (t582 * t883 - t576 * t884))))));
+  const Real t1045 = Real(1.0) / (t964 * t1000 - (t785 * t956 - (rear_contacts2bn0_y * t774 +
+      (rear_contacts2bn0_z * t773 - (t554 * t772 - (t563 * t771 - (t569 * t770 + (t582 * t768 - t576 *
+      t769))))))) + Real(8.816994788327498e-12));
+  const Real t1046 = t1020 * t1045;
+  const Real t1059 = t1030 * t1045;
+  const Real t1069 = t1020 * t1059 - (t973 * t1022 - (t816 * t976 + (t79 * t843 - (t585 * t842 - (t594 * t841
+      - (t603 * t840 - (t611 * t839 + (t625 * t837 - t618 * t838))))))));
+  const Real t1071 = t1041 * t1045;
+  const Real t1081 = t1020 * t1071 - (t973 * t1033 - (t816 * t987 + (t79 * t889 - (t585 * t888 - (t594 * t887
+      - (t603 * t886 - (t611 * t885 + (t625 * t883 - t618 * t884))))))));
+  const Real t1084 = Real(1.0) / (t1020 * t1046 - (t973 * t1012 - (t816 * t966 + (model.c29 * (t79 * t79) -
+      (t585 * t805 - (t594 * t804 - (t603 * t803 - (t611 * t802 + (t625 * t800 - t618 * t801)))))))) -
+      Real(3.988016169236579e-12));
+  const Real t1085 = t1069 * t1084;
+  const Real t1100 = t1081 * t1084;
+  const Real t1112 = t1069 * t1100 - (t1030 * t1071 - (t983 * t1033 - (t854 * t987 - (front_contacts1bn3p_x *
+      t890 - (front_contacts1bm_z * t889 - (t633 * t888 - (t644 * t887 - (t655 * t886 - (t662 * t885 + (t677 *
+      t883 - t669 * t884))))))))));
+  const Real t1114 = Real(1.0) / (t1069 * t1085 - (t1030 * t1059 - (t983 * t1022 - (t854 * t976 -
+      (Real(3.571428571428571) * (front_contacts1bn3p_x * front_contacts1bn3p_x) - (front_contacts1bm_z * t843
+      - (t633 * t842 - (t644 * t841 - (t655 * t840 - (t662 * t839 + (t677 * t837 - t669 * t838)))))))))) +
+      Real(4.6476630875276904e-11));
+  const Real t1115 = t1112 * t1114;
+  const Real t1131 = Real(1.0) / (t1112 * t1115 - (t1081 * t1100 - (t1041 * t1071 - (t994 * t1033 - (t901 *
+      t987 - (front_contacts2bn3p_x * t890 - (front_contacts2bm_z * t889 - (t685 * t888 - (t696 * t887 - (t707
+      * t886 - (t714 * t885 + (t729 * t883 - t722 * t884))))))))))) - Real(2.7054786900152528e-11));
+  const Real t1132 = g_rear_contact * t945;
+  const Real t1138 = g_rear_contact * t956 - t1000 * t1132;
+  const Real t1149 = t1046 * t1138 + (t1012 * t1132 - (g_rear_contact * t966 + (front_contactup *
+      model.front_radius + (q0r2_z * front_contactbx2p_z + (q0r2_y * front_contactbx3_x + (state.y[2] + q0r2_x
+      * front_contactbx2p_x))))));
+  const Real t1155 = t1085 * t1149 - (t1059 * t1138 - (g_rear_contact * t976 - t1022 * t1132));
+  const Real t1167 = t1131 * (t1115 * t1155 - (t1100 * t1149 - (t1071 * t1138 - (g_rear_contact * t987 - t1033
+      * t1132))));
+  const Real t1169 = t1114 * t1155 - t1115 * t1167;
+  const Real t1173 = t1100 * t1167 - (t1084 * t1149 - t1085 * t1169);
+  const Real t1179 = t1071 * t1167 + (t1059 * t1169 - (t1045 * t1138 + t1046 * t1173));
+  const Real t1187 = t1033 * t1167 + (t1022 * t1169 - (t1012 * t1173 - (t999 * t1132 - t1000 * t1179)));
+  const Real t1197 = t987 * t1167 + (t976 * t1169 - (t966 * t1173 + (t956 * t1179 - (g_rear_contact * t944 -
+      t945 * t1187))));
+  const Real t1275 = t493 * (t729 * t1167 + (t677 * t1169 - (t625 * t1173 - (t582 * t1179 - (t522 * t1197 +
+      t552 * t1187)))));
+  const Real t1278 = t484 * (t722 * t1167 + (t669 * t1169 - (t618 * t1173 - (t576 * t1179 - (t516 * t1197 +
+      t545 * t1187))))) - t485 * t1275;
+  const Real t1283 = t470 * t1278 - (t469 * (t714 * t1167 + (t662 * t1169 - (t611 * t1173 - (t569 * t1179 -
+      (t510 * t1197 + t539 * t1187))))) - t482 * t1275);
+  const Real t1290 = t449 * t1283 - (t464 * t1278 - (t448 * (t707 * t1167 + (t655 * t1169 - (t603 * t1173 -
+      (t563 * t1179 - (t503 * t1197 + t533 * t1187))))) - t467 * t1275));
+  const Real t1299 = t417 * t1290 - (t439 * t1283 - (t443 * t1278 - (t416 * (t696 * t1167 + (t644 * t1169 -
+      (t594 * t1173 - (t554 * t1179 - (t495 * t1197 + t524 * t1187))))) - t446 * t1275)));
+  const Real t1310 = t376 * t1299 - (t402 * t1290 - (t407 * t1283 - (t411 * t1278 - (t375 * (t685 * t1167 +
+      (t633 * t1169 - (t585 * t1173 + (rear_contacts2bn0_z * t1179 + (t96 * t1197 + rear_contacts1bn0_z *
+      t1187))))) - t414 * t1275))));
+  const Real t1312 = t1299 + Real(8.333333333333334) * (rear_contacts1bn0_y * t1187 - rear_contacts2bn0_y *
+      t1179);
+  const Real t1313 = model.c29 * (front_contacts2bm_z * t1167 - (t79 * t1173 - front_contacts1bm_z * t1169));
+  const Real t1314 = t373 * t1275;
+  const Real t1315 = t370 * t1278;
+  const Real t1316 = t366 * t1283;
+  const Real t1317 = t361 * t1290;
+  const Real t1318 = t355 * t1299;
+  const Real t1319 = t321 * t1310;
+  const Real t1325 = t1319 - (t1318 + (t1317 + (t1316 - (t1315 - (t1313 - t1314)))));
+  const Real t1332 = t311 * t1310 - (t315 * t1299 - (Real(3.571428571428571) * (front_contacts1bn3p_x * t1169
+      + front_contacts2bn3p_x * t1167) - t318 * t1290));
+  const Real t1343 = Real(0.5) * t1290;
+  const Real t1344 = Real(0.5) * t1299;
+  const Real t1345 = Real(0.5) * t1310;
+  const Real t1352 = state.y[6] * t1344 + (state.y[5] * t1345 + (state.y[4] + state.y[3] * t1343));
+  const Real t1359 = state.y[4] * t1345 - (state.y[6] * t1343 + (state.y[5] - state.y[3] * t1344));
+  const Real t1363 = state.y[6] * t1345 - (state.y[5] * t1344 + (state.y[3] - state.y[4] * t1343));
+  const Real t1369 = state.y[5] * t1343 + (state.y[4] * t1344 - (state.y[6] + state.y[3] * t1345));
+  const Real t1378 = Real(1.0) / detail::square_root(t1369 * t1369 + (t1359 * t1359 + (t1363 * t1363 + t1352 *
+      t1352)));
+  const Real t1379 = t1363 * t1378;
+  const Real t1380 = t1352 * t1378;
+  const Real t1381 = t1359 * t1378;
+  const Real t1382 = t1369 * t1378;
+  const Real q0d1_2 = Real(2.0) * t1380;
+  const Real q0d2_2 = Real(2.0) * t1381;
+  const Real q0d3_2 = Real(2.0) * t1382;
+  const Real q011_2 = t1380 * q0d1_2;
+  const Real q022_2 = t1381 * q0d2_2;
+  const Real q023_2 = t1381 * q0d3_2;
+  const Real q001_2 = t1379 * q0d1_2;
+  const Real q0r2_y_2 = q023_2 - q001_2;
+  const Real t1391 = Real(1.0) - q011_2;
+  const Real q0r2_z_2 = q022_2 - t1391;
+  const Real t1394 = Real(1.0) - q0r2_y_2 * q0r2_y_2;
+  const Real rear_contactup_2 = detail::square_root(t1394);
+  const Real q013_2 = t1380 * q0d3_2;
+  const Real q002_2 = t1379 * q0d2_2;
+  const Real q0r2_x_2 = q013_2 + q002_2;
+  Real t1399, t1400;
+  detail::sine_cosine(t1313, t1399, t1400);
+  Real t1401, t1402;
+  detail::sine_cosine(t1314, t1401, t1402);
+  const Real t1405 = t1400 * t1401 - t1399 * t1402;
+  const Real t1408 = t1399 * t1401 + t1400 * t1402;
+  Real t1409, t1410;
+  detail::sine_cosine(t1315, t1409, t1410);
+  const Real t1413 = t1408 * t1409 + t1405 * t1410;
+  const Real t1416 = t1405 * t1409 - t1408 * t1410;
+  Real t1417, t1418;
+  detail::sine_cosine(t1316, t1417, t1418);
+  const Real t1421 = t1416 * t1417 + t1413 * t1418;
+  const Real t1424 = t1413 * t1417 - t1416 * t1418;
+  Real t1425, t1426;
+  detail::sine_cosine(t1317, t1425, t1426);
+  const Real t1429 = t1424 * t1425 - t1421 * t1426;
+  const Real t1432 = t1421 * t1425 + t1424 * t1426;
+  Real t1433, t1434;
+  detail::sine_cosine(t1318, t1433, t1434);
+  const Real t1437 = t1432 * t1433 + t1429 * t1434;
+  const Real t1440 = t1429 * t1433 - t1432 * t1434;
+  Real t1441, t1442;
+  detail::sine_cosine(t1319, t1441, t1442);
+  const Real t1445 = t1440 * t1441 + t1437 * t1442;
+  const Real t1448 = t1437 * t1441 - t1440 * t1442;
+  const Real s2_2 = c2 * t1445 - s2 * t1448;
+  const Real c2_2 = s2 * t1445 + c2 * t1448;
   const Real front_contactbx3_x_2 = model.r_front_y * s2_2;
   const Real front_contactbx3_y_2 = model.r_front_y * c2_2;
   const Real front_contactbx2p_x_2 = model.c25 + Real(0.9510565162951535) * front_contactbx3_y_2;
   const Real front_contactbx2p_z_2 = model.c26 + Real(0.3090169943749474) * front_contactbx3_y_2;
   const Real front_contactbd2p_x_2 = Real(0.9510565162951535) * s2_2;
   const Real front_contactbd2p_z_2 = Real(0.3090169943749474) * s2_2;
-  const Real front_contactbd0p_z_2 = q0r2_y_2 * c2_2 + (q0r2_x_2 * front_contactbd2p_x_2 - q0r2_z_2 *
-      front_contactbd2p_z_2);
-  const Real t1533 = Real(1.0) - front_contactbd0p_z_2 * front_contactbd0p_z_2;
-  const Real front_contactup_2 = detail::square_root(t1533);
-  const Real t1535 = Real(0.5) * t1443;
-  const Real t1536 = Real(0.5) * t1444;
-  const Real t1537 = Real(0.5) * t1445;
-  const Real t1538 = Real(0.5) * t1446;
-  const Real t1542 = model.c31 * ((front_contactbd0p_z_2 + front_contactbd0p_z_2) / front_contactup_2);
-  const Real t1551 = front_contactbx2p_z_2 + front_contactbd2p_z_2 * t1542;
-  const Real t1552 = front_contactbx3_x_2 - c2_2 * t1542;
-  const Real t1553 = front_contactbx2p_x_2 + front_contactbd2p_x_2 * t1542;
-  const Real t1570 = model.c32 * ((q0r2_y_2 + q0r2_y_2) / rear_contactup_2);
-  const Real t1572 = q0d1_2 * t1570;
-  const Real t1575 = q0d2_2 * t1553 + q0d1_2 * t1552;
-  const Real t1594 = q0d2_2 * t1570;
-  const Real t1595 = Real(2.0) * (t1444 * t1553 - t1445 * t1552);
-  const Real t1602 = model.rear_radius * q0d2_2 - (q0d3_2 * t1570 - model.mr_z * t1445);
-  const Real t1605 = q0d2_2 * t1551 + (q0d3_2 * t1552 + Real(2.0) * (t1443 * t1553 + t1445 * t1551));
-  const Real t1613 = model.rear_radius * q0d1_2 - Real(2.0) * (t1443 * t1570 - model.rear_radius * t1444);
-  const Real t1616 = q0d1_2 * t1551 - (q0d3_2 * t1553 - Real(2.0) * (t1443 * t1552 + t1444 * t1551));
-  const Real t1636 = t1536 * t1605 - t1537 * t1616;
-  const Real q033_2 = t1446 * q0d3_2;
-  const Real q012_2 = t1444 * q0d2_2;
-  const Real q003_2 = t1443 * q0d3_2;
-  const Real q0r0_x_2 = q033_2 - (Real(1.0) - q022_2);
-  const Real q0r0_y_2 = q012_2 - q003_2;
-  const Real q0r1_x_2 = q012_2 + q003_2;
-  const Real q0r1_y_2 = t1455 - q033_2;
-  const Real q0r1_z_2 = q023_2 - q001_2;
-  const Real t1647 = model.rear_radius * q0r1_y_2;
-  const Real rear_contactc_y_2 = q0r2_y_2 * t1647 / rear_contactup_2;
-  const Real rear_contactc_z_2 = model.rear_radius * (t1458 / rear_contactup_2);
+  const Real front_contactbd0p_z_2 = q0r2_z_2 * front_contactbd2p_z_2 - (q0r2_x_2 * front_contactbd2p_x_2 -
+      q0r2_y_2 * c2_2);
+  const Real t1469 = Real(1.0) - front_contactbd0p_z_2 * front_contactbd0p_z_2;
+  const Real front_contactup_2 = detail::square_root(t1469);
+  const Real t1478 = Real(0.9510565162951535) * q0r2_x_2 - Real(0.3090169943749474) * q0r2_z_2;
+  const Real t1483 = model.c30 * ((front_contactbd0p_z_2 + front_contactbd0p_z_2) / front_contactup_2);
+  const Real t1488 = front_contactbx2p_z_2 - front_contactbd2p_z_2 * t1483;
+  const Real t1490 = front_contactbx3_x_2 + c2_2 * t1483;
+  const Real t1491 = front_contactbx2p_x_2 - front_contactbd2p_x_2 * t1483;
+  const Real q012_2 = t1381 * q0d1_2;
+  const Real t1499 = t1380 * t1380 - (t1379 * t1379 + (t1382 * t1382 - t1381 * t1381));
+  const Real t1504 = model.c31 * ((q0r2_y_2 + q0r2_y_2) / rear_contactup_2);
+  const Real q033_2 = t1382 * q0d3_2;
+  const Real q003_2 = t1379 * q0d3_2;
+  const Real q0r0_x_2 = q022_2 - (Real(1.0) - q033_2);
+  const Real q0r0_y_2 = q012_2 + q003_2;
+  const Real q0r1_x_2 = q012_2 - q003_2;
+  const Real q0r1_y_2 = t1391 - q033_2;
+  const Real q0r1_z_2 = q023_2 + q001_2;
+  const Real t1523 = model.rear_radius * q0r1_y_2;
+  const Real rear_contactc_y_2 = q0r2_y_2 * t1523 / rear_contactup_2;
+  const Real rear_contactc_z_2 = model.rear_radius * (t1394 / rear_contactup_2);
   const Real rear_contacts1bn0_y_2 = q0r1_y_2 * rear_contactc_z_2 + q0r2_y_2 * rear_contactc_y_2;
   const Real rear_contacts1bn0_z_2 = q0r1_z_2 * rear_contactc_z_2 - q0r2_z_2 * rear_contactc_y_2;
-  const Real t1660 = model.rear_radius * q0r0_y_2;
-  const Real rear_contacts1bm_x = q0r2_x_2 * rear_contactc_y_2 + (q0r1_x_2 * rear_contactc_z_2 + t1660);
+  const Real t1536 = model.rear_radius * q0r0_y_2;
+  const Real rear_contacts1bm_x = t1536 + (q0r1_x_2 * rear_contactc_z_2 + q0r2_x_2 * rear_contactc_y_2);
   const Real rear_contacts1bm_y = rear_contacts1bn0_y_2 + model.rear_radius * q0r0_x_2;
-  const Real q0r0_z_2 = q013_2 + q002_2;
-  const Real rear_contactc_x_2 = q0r2_y_2 * t1660 / rear_contactup_2;
+  const Real q0r0_z_2 = q013_2 - q002_2;
+  const Real rear_contactc_x_2 = q0r2_y_2 * t1536 / rear_contactup_2;
   const Real rear_contacts2bn0_y_2 = q0r0_y_2 * rear_contactc_z_2 + q0r2_y_2 * rear_contactc_x_2;
   const Real rear_contacts2bn0_z_2 = rear_contactc_z_2 * q0r0_z_2 - q0r2_z_2 * rear_contactc_x_2;
-  const Real rear_contacts2bm_x = q0r0_x_2 * rear_contactc_z_2 + (t1647 - q0r2_x_2 * rear_contactc_x_2);
+  const Real rear_contacts2bm_x = q0r2_x_2 * rear_contactc_x_2 - (t1523 + q0r0_x_2 * rear_contactc_z_2);
   const Real rear_contacts2bm_y = rear_contacts2bn0_y_2 + model.rear_radius * q0r1_x_2;
-  const Real front_contactbd0p_y_2 = c2_2 * q0r1_y_2 + (front_contactbd2p_x_2 * q0r1_x_2 +
-      front_contactbd2p_z_2 * q0r1_z_2);
+  const Real front_contactbd0p_y_2 = front_contactbd2p_z_2 * q0r1_z_2 + (front_contactbd2p_x_2 * q0r1_x_2 -
+      c2_2 * q0r1_y_2);
   const Real front_contactc_y_2 = model.front_radius * (front_contactbd0p_z_2 * front_contactbd0p_y_2 /
       front_contactup_2);
-  const Real front_contactc_z_2 = model.front_radius * (t1533 / front_contactup_2);
+  const Real front_contactc_z_2 = model.front_radius * (t1469 / front_contactup_2);
   const Real front_contacts1bf2_y_2 = Real(0.3090169943749474) * q0r0_z_2 - Real(0.9510565162951535) *
       q0r0_x_2;
-  const Real front_contacts1bn0_x_2 = q0r1_x_2 * front_contactc_z_2 + q0r2_x_2 * front_contactc_y_2;
-  const Real front_contacts1bn0_y_2 = q0r1_y_2 * front_contactc_z_2 + q0r2_y_2 * front_contactc_y_2;
-  const Real front_contacts1bn0_z_2 = q0r1_z_2 * front_contactc_z_2 - q0r2_z_2 * front_contactc_y_2;
+  const Real front_contacts1bn0_x_2 = q0r1_x_2 * front_contactc_z_2 - q0r2_x_2 * front_contactc_y_2;
+  const Real front_contacts1bn0_y_2 = q0r1_y_2 * front_contactc_z_2 - q0r2_y_2 * front_contactc_y_2;
+  const Real front_contacts1bn0_z_2 = q0r1_z_2 * front_contactc_z_2 + q0r2_z_2 * front_contactc_y_2;
   const Real front_contacts1bn2_y_2 = Real(0.3090169943749474) * front_contacts1bn0_z_2 +
       Real(0.9510565162951535) * front_contacts1bn0_x_2;
-  const Real front_contacts1bn3p_x_2 = c2_2 * front_contacts1bn0_y_2 + s2_2 * front_contacts1bn2_y_2;
-  const Real front_contacts1bm_z_2 = Real(0.9510565162951535) * front_contacts1bn0_z_2 -
-      (Real(0.3090169943749474) * front_contacts1bn0_x_2 + (front_contactbx3_y_2 * q0r0_y_2 +
-      front_contactbx3_x_2 * front_contacts1bf2_y_2));
-  const Real front_contacts1bm_x = front_contactbx2p_z_2 * q0r0_y_2 + (front_contacts1bn0_x_2 +
-      front_contactbx3_x_2 * q0r0_z_2);
-  const Real front_contacts1bm_y = front_contactbx2p_z_2 * q0r0_x_2 + (front_contacts1bn0_y_2 +
-      front_contactbx2p_x_2 * q0r0_z_2);
-  const Real front_contacts1bm_z_3 = front_contactbx3_x_2 * q0r0_x_2 + (front_contacts1bn0_z_2 -
-      front_contactbx2p_x_2 * q0r0_y_2);
-  const Real front_contactbd0p_x_2 = c2_2 * q0r0_y_2 + s2_2 * front_contacts1bf2_y_2;
+  const Real front_contacts1bn3p_x_2 = c2_2 * front_contacts1bn0_y_2 - s2_2 * front_contacts1bn2_y_2;
+  const Real front_contacts1bm_z_2 = front_contactbx3_x_2 * front_contacts1bf2_y_2 - (front_contactbx3_y_2 *
+      q0r0_y_2 + (Real(0.3090169943749474) * front_contacts1bn0_x_2 - Real(0.9510565162951535) *
+      front_contacts1bn0_z_2));
+  const Real front_contacts1bm_x = front_contactbx3_x_2 * q0r0_z_2 - (front_contacts1bn0_x_2 +
+      front_contactbx2p_z_2 * q0r0_y_2);
+  const Real front_contacts1bm_y = front_contactbx2p_x_2 * q0r0_z_2 + (front_contacts1bn0_y_2 +
+      front_contactbx2p_z_2 * q0r0_x_2);
+  const Real front_contacts1bm_z_3 = front_contactbx2p_x_2 * q0r0_y_2 - (front_contacts1bn0_z_2 -
+      front_contactbx3_x_2 * q0r0_x_2);
+  const Real front_contactbd0p_x_2 = c2_2 * q0r0_y_2 - s2_2 * front_contacts1bf2_y_2;
   const Real front_contactc_x_2 = model.front_radius * (front_contactbd0p_z_2 * front_contactbd0p_x_2 /
       front_contactup_2);
   const Real front_contacts2bf2_y = Real(0.3090169943749474) * q0r1_z_2 + Real(0.9510565162951535) * q0r1_x_2;
@@ -1947,83 +1890,80 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real front_contacts2bn0_z_2 = q0r0_z_2 * front_contactc_z_2 - q0r2_z_2 * front_contactc_x_2;
   const Real front_contacts2bn2_y_2 = Real(0.3090169943749474) * front_contacts2bn0_z_2 -
       Real(0.9510565162951535) * front_contacts2bn0_x_2;
-  const Real front_contacts2bn3p_x_2 = c2_2 * front_contacts2bn0_y_2 + s2_2 * front_contacts2bn2_y_2;
-  const Real front_contacts2bm_z_2 = Real(0.9510565162951535) * front_contacts2bn0_z_2 +
-      (Real(0.3090169943749474) * front_contacts2bn0_x_2 + (front_contactbx3_y_2 * q0r1_y_2 +
-      front_contactbx3_x_2 * front_contacts2bf2_y));
-  const Real front_contacts2bm_x = front_contactbx2p_z_2 * q0r1_y_2 + (front_contacts2bn0_x_2 +
-      front_contactbx3_x_2 * q0r1_z_2);
-  const Real front_contacts2bm_y = front_contactbx2p_z_2 * q0r1_x_2 + (front_contacts2bn0_y_2 -
-      front_contactbx2p_x_2 * q0r1_z_2);
-  const Real front_contacts2bm_z_3 = front_contactbx3_x_2 * q0r1_x_2 + (front_contacts2bn0_z_2 +
-      front_contactbx2p_x_2 * q0r1_y_2);
-  const Real t1781 = (t1537 * t1594 + (t1536 * t1572 + (t1538 * t1602 + t1535 * t1613))) * state.z[3] -
-      (state.z[2] - ((t1535 * t1602 - t1538 * t1613) * state.z[4] + (t1535 * t1594 - (t1538 * t1572 - (t1536 *
-      t1602 - t1537 * t1613))) * state.z[5]));
-  const Real t1812 = rear_contacts1bm_x * state.z[3] + (state.z[0] + (rear_contacts1bm_y * state.z[4] -
-      (rear_contacts1bn0_z_2 * state.z[5] - (rear_contacts1bn0_y_2 * state.z[6] + t1009 * t1781))));
-  const Real t1823 = rear_contacts2bm_x * state.z[3] + (state.z[1] - (rear_contacts2bm_y * state.z[4] -
-      (rear_contacts2bn0_z_2 * state.z[5] - (rear_contacts2bn0_y_2 * state.z[6] + (t1020 * t1781 - t1064 *
-      t1812)))));
-  const Real t1834 = (t1537 * t1595 - (t1536 * t1575 - (t1538 * t1605 + t1535 * t1616))) * state.z[3] -
-      (state.z[2] + ((t1536 * t1595 + (t1537 * t1575 - (t1535 * t1605 - t1538 * t1616))) * state.z[4] -
-      ((t1636 + t1636) * state.z[5] - ((c2_2 * (Real(0.9510565162951535) * (q0r2_x_2 * t1542) -
-      (Real(0.3090169943749474) * (q0r2_z_2 * t1542) + model.r_front_y * q0r2_y_2)) - s2_2 * (q0r2_y_2 * t1542
-      - model.r_front_y * (Real(0.3090169943749474) * q0r2_z_2 - Real(0.9510565162951535) * q0r2_x_2))) *
-      state.z[7] + (t1030 * t1781 - (t1076 * t1812 - t1110 * t1823))))));
-  const Real t1846 = front_contacts1bm_x * state.z[3] + (state.z[0] + (front_contacts1bm_y * state.z[4] -
-      (front_contacts1bm_z_3 * state.z[5] + (front_contacts1bm_z_2 * state.z[7] - (front_contacts1bn3p_x_2 *
-      state.z[8] + (t1040 * t1781 - (t1086 * t1812 - (t1123 * t1823 + t1149 * t1834))))))));
-  const Real t1864 = t1195 * (front_contacts2bm_x * state.z[3] + (state.z[1] - (front_contacts2bm_y *
-      state.z[4] - (front_contacts2bm_z_3 * state.z[5] + (front_contacts2bm_z_2 * state.z[7] -
-      (front_contacts2bn3p_x_2 * state.z[8] - (t1051 * t1781 - (t1097 * t1812 - (t1135 * t1823 + (t1164 *
-      t1834 - t1179 * t1846))))))))));
-  const Real t1866 = t1178 * t1846 - t1179 * t1864;
-  const Real t1870 = t1149 * t1866 + (t1148 * t1834 + t1164 * t1864);
-  const Real t1876 = t1110 * t1870 - (t1109 * t1823 + (t1123 * t1866 + t1135 * t1864));
-  const Real t1884 = t1064 * t1876 - (t1063 * t1812 + (t1076 * t1870 - (t1086 * t1866 + t1097 * t1864)));
-  const Real t1894 = t1009 * t1884 - (t1008 * t1781 + (t1020 * t1876 - (t1030 * t1870 - (t1040 * t1866 + t1051
-      * t1864))));
-  const Real t1972 = t548 * (t610 * t1884 + (t580 * t1894 + (t640 * t1876 + (t689 * t1870 + (t741 * t1866 +
-      t793 * t1864)))));
-  const Real t1975 = t539 * (t603 * t1884 - (t574 * t1894 + (t634 * t1876 - (t682 * t1870 - (t733 * t1866 +
-      t786 * t1864))))) + t540 * t1972;
-  const Real t1980 = t537 * t1972 + (t524 * (t597 * t1884 + (t568 * t1894 - (t627 * t1876 + (t675 * t1870 +
-      (t726 * t1866 - t778 * t1864))))) + t525 * t1975);
-  const Real t1987 = t522 * t1972 - (t503 * (t591 * t1884 + (t561 * t1894 - (t621 * t1876 - (t667 * t1870 +
-      (t719 * t1866 - t771 * t1864))))) + (t519 * t1975 + t504 * t1980));
-  const Real t1996 = t501 * t1972 - (t471 * (t582 * t1884 - (t551 * t1894 + (t612 * t1876 - (t656 * t1870 -
-      (t708 * t1866 - t760 * t1864))))) + (t498 * t1975 + (t494 * t1980 + t472 * t1987)));
-  const Real t2007 = t469 * t1972 + (t430 * (rear_contacts1bn0_z * t1884 + (t149 * t1894 -
-      (rear_contacts2bn0_z * t1876 - (t645 * t1870 - (t697 * t1866 - t749 * t1864))))) + (t466 * t1975 + (t462
-      * t1980 - (t457 * t1987 + t431 * t1996))));
-  closed.y[0] = -(t1339 - state.y[0]);
-  closed.y[1] = t1342 + state.y[1];
-  closed.y[2] = state.y[2] - t1347;
-  closed.y[3] = t1443;
-  closed.y[4] = -t1444;
-  closed.y[5] = -t1445;
-  closed.y[6] = t1446;
-  closed.y[7] = t1376 + state.y[7];
-  closed.y[8] = state.y[8] - t1389;
-  closed.y[9] = -(t1396 - state.y[9]);
-  closed.z[0] = state.z[0] - t1972;
-  closed.z[1] = state.z[1] + t1975;
-  closed.z[2] = state.z[2] - t1980;
-  closed.z[3] = state.z[3] - t1987;
-  closed.z[4] = state.z[4] - t1996;
-  closed.z[5] = state.z[5] + t2007;
-  closed.z[6] = t1996 + (state.z[6] - Real(8.333333333333334) * (rear_contacts1bn0_y * t1884 +
-      rear_contacts2bn0_y * t1876));
-  closed.z[7] = model.c30 * (front_contacts1bm_z * t1866 - (t87 * t1870 + front_contacts2bm_z * t1864)) +
-      (state.z[7] - (t428 * t1972 + (t425 * t1975 + (t421 * t1980 + (t416 * t1987 - (t410 * t1996 + t376 *
-      t2007))))));
-  closed.z[8] = Real(3.571428571428571) * (front_contacts1bn3p_x * t1866 + front_contacts2bn3p_x * t1864) +
-      (state.z[8] - (t373 * t1987 - (t370 * t1996 - t366 * t2007)));
-  closed.regularity = Real(1.0) / (t1195 * (t1178 * (t1148 * (t1109 * (t1008 * t1063))))) *
-      Real(70211.04724568786);
-  closed.opening = t1342 * t1342 + (t1339 * t1339 + (t1347 * t1347 + (t1354 * t1354 + (t1363 * t1363 + (t1374
-      * t1374 + (t1376 * t1376 + (t1389 * t1389 + t1396 * t1396)))))));
+  const Real front_contacts2bn3p_x_2 = c2_2 * front_contacts2bn0_y_2 - s2_2 * front_contacts2bn2_y_2;
+  const Real front_contacts2bm_z_2 = front_contactbx3_x_2 * front_contacts2bf2_y - (front_contactbx3_y_2 *
+      q0r1_y_2 + (Real(0.3090169943749474) * front_contacts2bn0_x_2 + Real(0.9510565162951535) *
+      front_contacts2bn0_z_2));
+  const Real front_contacts2bm_x = front_contactbx3_x_2 * q0r1_z_2 - (front_contacts2bn0_x_2 +
+      front_contactbx2p_z_2 * q0r1_y_2);
+  const Real front_contacts2bm_y = front_contactbx2p_x_2 * q0r1_z_2 - (front_contacts2bn0_y_2 +
+      front_contactbx2p_z_2 * q0r1_x_2);
+  const Real front_contacts2bm_z_3 = front_contactbx2p_x_2 * q0r1_y_2 + (front_contacts2bn0_z_2 -
+      front_contactbx3_x_2 * q0r1_x_2);
+  const Real t1658 = q0r2_x_2 * t1504 * state.z[5] - (model.rear_radius * (q0r2_x_2 * state.z[4]) +
+      (state.z[2] + (model.rear_radius * q0r2_y_2 + t1499 * t1504) * state.z[3]));
+  const Real t1689 = t945 * t1658 + (rear_contacts1bn0_y_2 * state.z[6] + (rear_contacts1bn0_z_2 * state.z[5]
+      + (rear_contacts1bm_y * state.z[4] + (state.z[0] - rear_contacts1bm_x * state.z[3]))));
+  const Real t1700 = t1000 * t1689 - (t956 * t1658 - (rear_contacts2bn0_y_2 * state.z[6] +
+      (rear_contacts2bn0_z_2 * state.z[5] + (rear_contacts2bm_y * state.z[4] + (state.z[1] -
+      rear_contacts2bm_x * state.z[3])))));
+  const Real t1711 = t1046 * t1700 - (t1012 * t1689 - (t966 * t1658 + ((front_contactbx3_x_2 * t1478 + ((c2_2
+      * t1478 + q0r2_y_2 * s2_2) * t1483 - q0r2_y_2 * front_contactbx3_y_2)) * state.z[7] + ((q0r2_x_2 * t1490
+      - q0r2_y_2 * t1491) * state.z[5] - ((q0r2_x_2 * t1488 + t1491 * t1499) * state.z[4] + (state.z[2] +
+      (q0r2_y_2 * t1488 + t1490 * t1499) * state.z[3]))))));
+  const Real t1723 = t1085 * t1711 - (t1059 * t1700 - (t1022 * t1689 - (t976 * t1658 +
+      (front_contacts1bn3p_x_2 * state.z[8] + (front_contacts1bm_z_2 * state.z[7] - (front_contacts1bm_z_3 *
+      state.z[5] - (front_contacts1bm_y * state.z[4] + (state.z[0] + front_contacts1bm_x * state.z[3]))))))));
+  const Real t1741 = t1131 * (t1115 * t1723 - (t1100 * t1711 - (t1071 * t1700 - (t1033 * t1689 - (t987 * t1658
+      + (front_contacts2bn3p_x_2 * state.z[8] - (front_contacts2bm_z_2 * state.z[7] - (front_contacts2bm_z_3 *
+      state.z[5] - (front_contacts2bm_y * state.z[4] - (state.z[1] - front_contacts2bm_x *
+      state.z[3]))))))))));
+  const Real t1743 = t1114 * t1723 - t1115 * t1741;
+  const Real t1747 = t1100 * t1741 - (t1084 * t1711 - t1085 * t1743);
+  const Real t1753 = t1071 * t1741 + (t1059 * t1743 - (t1045 * t1700 + t1046 * t1747));
+  const Real t1761 = t1033 * t1741 + (t1022 * t1743 - (t1012 * t1747 + (t999 * t1689 + t1000 * t1753)));
+  const Real t1771 = t987 * t1741 + (t976 * t1743 - (t966 * t1747 + (t956 * t1753 + (t944 * t1658 + t945 *
+      t1761))));
+  const Real t1849 = t493 * (t729 * t1741 + (t677 * t1743 - (t625 * t1747 - (t582 * t1753 - (t522 * t1771 +
+      t552 * t1761)))));
+  const Real t1852 = t484 * (t722 * t1741 + (t669 * t1743 - (t618 * t1747 - (t576 * t1753 - (t516 * t1771 +
+      t545 * t1761))))) - t485 * t1849;
+  const Real t1857 = t470 * t1852 - (t469 * (t714 * t1741 + (t662 * t1743 - (t611 * t1747 - (t569 * t1753 -
+      (t510 * t1771 + t539 * t1761))))) - t482 * t1849);
+  const Real t1864 = t449 * t1857 - (t464 * t1852 - (t448 * (t707 * t1741 + (t655 * t1743 - (t603 * t1747 -
+      (t563 * t1753 - (t503 * t1771 + t533 * t1761))))) - t467 * t1849));
+  const Real t1873 = t417 * t1864 - (t439 * t1857 - (t443 * t1852 - (t416 * (t696 * t1741 + (t644 * t1743 -
+      (t594 * t1747 - (t554 * t1753 - (t495 * t1771 + t524 * t1761))))) - t446 * t1849)));
+  const Real t1884 = t376 * t1873 - (t402 * t1864 - (t407 * t1857 - (t411 * t1852 - (t375 * (t685 * t1741 +
+      (t633 * t1743 - (t585 * t1747 + (rear_contacts2bn0_z * t1753 + (t96 * t1771 + rear_contacts1bn0_z *
+      t1761))))) - t414 * t1849))));
+  closed.y[0] = t1275 + state.y[0];
+  closed.y[1] = t1278 + state.y[1];
+  closed.y[2] = state.y[2] + t1283;
+  closed.y[3] = -t1379;
+  closed.y[4] = t1380;
+  closed.y[5] = -t1381;
+  closed.y[6] = -t1382;
+  closed.y[7] = t1312 + state.y[7];
+  closed.y[8] = state.y[8] + t1325;
+  closed.y[9] = -(t1332 - state.y[9]);
+  closed.z[0] = state.z[0] + t1849;
+  closed.z[1] = state.z[1] + t1852;
+  closed.z[2] = state.z[2] + t1857;
+  closed.z[3] = state.z[3] + t1864;
+  closed.z[4] = state.z[4] - t1873;
+  closed.z[5] = state.z[5] + t1884;
+  closed.z[6] = Real(8.333333333333334) * (rear_contacts1bn0_y * t1761 - rear_contacts2bn0_y * t1753) +
+      (state.z[6] + t1873);
+  closed.z[7] = t321 * t1884 - (t355 * t1873 + (t361 * t1864 + (t366 * t1857 - (t370 * t1852 + (t373 * t1849 +
+      (state.z[7] - model.c29 * (front_contacts2bm_z * t1741 - (t79 * t1747 - front_contacts1bm_z *
+      t1743))))))));
+  closed.z[8] = -(t311 * t1884 - (t315 * t1873 + (t318 * t1864 + (state.z[8] - Real(3.571428571428571) *
+      (front_contacts1bn3p_x * t1743 + front_contacts2bn3p_x * t1741)))));
+  closed.regularity = -(Real(1.0) / (t1131 * (t1114 * (t1084 * (t1045 * (t944 * t999))))) *
+      Real(70211.04724568786));
+  closed.opening = t1332 * t1332 + (t1325 * t1325 + (t1312 * t1312 + (t1310 * t1310 + (t1299 * t1299 + (t1290
+      * t1290 + (t1283 * t1283 + (t1275 * t1275 + t1278 * t1278)))))));
   state = closed;
 }
 
@@ -2050,109 +1990,106 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   detail::sine_cosine(state.y[8], s2, c2);
   const Real front_contactbx3_x = s2 * model.r_front_y;
   const Real front_contactbx3_y = c2 * model.r_front_y;
-  const Real front_contactbx2p_x = front_contactbx3_y * Real(0.9510565162951535) + model.c33;
-  const Real front_contactbx2p_z = front_contactbx3_y * Real(0.3090169943749474) + model.c34;
+  const Real front_contactbx2p_x = front_contactbx3_y * Real(0.9510565162951535) + model.c32;
+  const Real front_contactbx2p_z = front_contactbx3_y * Real(0.3090169943749474) + model.c33;
   const Real front_contactbd2p_x = s2 * Real(0.9510565162951535);
   const Real front_contactbd2p_z = s2 * Real(0.3090169943749474);
-  const Real front_contactbd0p_z = q0r2_z * front_contactbd2p_z + (q0r2_x * front_contactbd2p_x - q0r2_y *
-      c2);
+  const Real front_contactbd0p_z = q0r2_y * c2 - (q0r2_x * front_contactbd2p_x + q0r2_z *
+      front_contactbd2p_z);
   const Real t52 = Real(1.0) - front_contactbd0p_z * front_contactbd0p_z;
   const Real front_contactup = detail::square_root(t52);
-  const Real g_front_contact = front_contactup * model.front_radius + (q0r2_z * front_contactbx2p_z + (q0r2_y
-      * front_contactbx3_x + (state.y[2] + q0r2_x * front_contactbx2p_x)));
-  const Real t60 = q0r2_y + q0r2_y;
-  const Real t61 = Real(1.0) / rear_contactup;
-  const Real t63 = t61 * Real(0.5);
-  const Real t67 = (front_contactbd0p_z + front_contactbd0p_z) / front_contactup * model.c31;
-  const Real t70 = q0r2_x * t67;
-  const Real t71 = front_contactbx2p_x - front_contactbd2p_x * t67;
-  const Real t74 = q0r2_z * Real(0.3090169943749474) + q0r2_x * Real(0.9510565162951535);
+  const Real g_front_contact = q0r2_x * front_contactbx2p_x + (state.y[2] + (q0r2_y * front_contactbx3_x +
+      (q0r2_z * front_contactbx2p_z + front_contactup * model.front_radius)));
+  const Real t66 = q0r2_x * Real(0.9510565162951535) + q0r2_z * Real(0.3090169943749474);
+  const Real t72 = (front_contactbd0p_z + front_contactbd0p_z) / front_contactup * model.c30;
+  const Real t77 = front_contactbx2p_z + front_contactbd2p_z * t72;
+  const Real t79 = front_contactbx3_x - c2 * t72;
+  const Real t80 = front_contactbx2p_x + front_contactbd2p_x * t72;
+  const Real q012 = q0d1 * state.y[5];
+  const Real t89 = (q011 + q022) * Real(0.5) - (state.y[6] * state.y[6] + state.y[3] * state.y[3]);
+  const Real t95 = (q0r2_y + q0r2_y) / rear_contactup * model.c31;
   const Real q033 = state.y[6] * q0d3;
-  const Real q012 = state.y[4] * q0d2;
   const Real q003 = q0d3 * state.y[3];
-  const Real q0r0_x = Real(1.0) - (q022 + q033);
+  const Real q0r0_x = q033 + (q022 - Real(1.0));
   const Real q0r0_y = q012 - q003;
   const Real q0r1_x = q012 + q003;
   const Real q0r1_y = t14 + q033;
   const Real q0r1_z = q023 - q001;
-  const Real t92 = model.rear_radius * q0r1_y;
-  const Real rear_contactc_y = q0r2_y * t92 / rear_contactup;
+  const Real t114 = model.rear_radius * q0r1_y;
+  const Real rear_contactc_y = q0r2_y * t114 / rear_contactup;
   const Real rear_contactc_z = model.rear_radius * (t18 / rear_contactup);
-  const Real rear_contacts1bn0_y = t61 * t92;
+  const Real rear_contacts1bn0_y = q0r1_y * rear_contactc_z + q0r2_y * rear_contactc_y;
   const Real rear_contacts1bn0_z = q0r1_z * rear_contactc_z + q0r2_z * rear_contactc_y;
-  const Real t103 = model.rear_radius * q0r0_y;
-  const Real rear_contacts1bm_x = t103 + (q0r1_x * rear_contactc_z - q0r2_x * rear_contactc_y);
-  const Real rear_contacts1bm_y = rear_contacts1bn0_y + model.rear_radius * q0r0_x;
+  const Real t127 = model.rear_radius * q0r0_y;
+  const Real rear_contacts1bm_x = q0r2_x * rear_contactc_y - (q0r1_x * rear_contactc_z + t127);
+  const Real rear_contacts1bm_y = rear_contacts1bn0_y - model.rear_radius * q0r0_x;
   const Real q0r0_z = q013 + q002;
-  const Real rear_contactc_x = q0r2_y * t103 / rear_contactup;
-  const Real rear_contacts2bn0_y = t61 * t103;
+  const Real rear_contactc_x = q0r2_y * t127 / rear_contactup;
+  const Real rear_contacts2bn0_y = q0r0_y * rear_contactc_z + q0r2_y * rear_contactc_x;
   const Real rear_contacts2bn0_z = rear_contactc_z * q0r0_z - q0r2_z * rear_contactc_x;
-  const Real rear_contacts2bm_x = q0r2_x * rear_contactc_x + (t92 + q0r0_x * rear_contactc_z);
+  const Real rear_contacts2bm_x = q0r0_x * rear_contactc_z - (t114 + q0r2_x * rear_contactc_x);
   const Real rear_contacts2bm_y = rear_contacts2bn0_y + model.rear_radius * q0r1_x;
-  const Real front_contactbd0p_y = front_contactbd2p_z * q0r1_z - (front_contactbd2p_x * q0r1_x + c2 *
-      q0r1_y);
+  const Real front_contactbd0p_y = c2 * q0r1_y + (front_contactbd2p_x * q0r1_x - front_contactbd2p_z *
+      q0r1_z);
   const Real front_contactc_y = model.front_radius * (front_contactbd0p_z * front_contactbd0p_y /
       front_contactup);
   const Real front_contactc_z = model.front_radius * (t52 / front_contactup);
-  const Real front_contacts1bf2_y = Real(0.3090169943749474) * q0r0_z - Real(0.9510565162951535) * q0r0_x;
+  const Real front_contacts1bf2_y = Real(0.3090169943749474) * q0r0_z + Real(0.9510565162951535) * q0r0_x;
   const Real front_contacts1bn0_x = q0r1_x * front_contactc_z - q0r2_x * front_contactc_y;
   const Real front_contacts1bn0_y = q0r1_y * front_contactc_z + q0r2_y * front_contactc_y;
   const Real front_contacts1bn0_z = q0r1_z * front_contactc_z + q0r2_z * front_contactc_y;
   const Real front_contacts1bn2_y = Real(0.3090169943749474) * front_contacts1bn0_z - Real(0.9510565162951535)
       * front_contacts1bn0_x;
   const Real front_contacts1bn3p_x = c2 * front_contacts1bn0_y - s2 * front_contacts1bn2_y;
-  const Real front_contacts1bm_z = front_contactbx3_x * front_contacts1bf2_y + (front_contactbx3_y * q0r0_y +
-      (Real(0.3090169943749474) * front_contacts1bn0_x + Real(0.9510565162951535) * front_contacts1bn0_z));
-  const Real front_contacts1bm_x = front_contactbx3_x * q0r0_z + (front_contacts1bn0_x + front_contactbx2p_z *
-      q0r0_y);
-  const Real front_contacts1bm_y = front_contactbx2p_x * q0r0_z + (front_contacts1bn0_y + front_contactbx2p_z
-      * q0r0_x);
-  const Real front_contacts1bm_z_2 = front_contactbx2p_x * q0r0_y + (front_contacts1bn0_z - front_contactbx3_x
-      * q0r0_x);
+  const Real front_contacts1bm_z = Real(0.9510565162951535) * front_contacts1bn0_z + (Real(0.3090169943749474)
+      * front_contacts1bn0_x + (front_contactbx3_y * q0r0_y + front_contactbx3_x * front_contacts1bf2_y));
+  const Real front_contacts1bm_x = front_contactbx2p_z * q0r0_y + (front_contacts1bn0_x + front_contactbx3_x *
+      q0r0_z);
+  const Real front_contacts1bm_y = front_contactbx2p_z * q0r0_x - (front_contacts1bn0_y + front_contactbx2p_x
+      * q0r0_z);
+  const Real front_contacts1bm_z_2 = front_contactbx3_x * q0r0_x + (front_contacts1bn0_z + front_contactbx2p_x
+      * q0r0_y);
   const Real front_contactbd0p_x = c2 * q0r0_y + s2 * front_contacts1bf2_y;
   const Real front_contactc_x = model.front_radius * (front_contactbd0p_z * front_contactbd0p_x /
       front_contactup);
   const Real front_contacts2bn0_x = q0r0_x * front_contactc_z - q0r2_x * front_contactc_x;
-  const Real front_contacts2bn0_y = q0r0_y * front_contactc_z - q0r2_y * front_contactc_x;
-  const Real front_contacts2bn0_z = q0r0_z * front_contactc_z + q0r2_z * front_contactc_x;
-  const Real front_contacts2bn2_y = Real(0.3090169943749474) * front_contacts2bn0_z - Real(0.9510565162951535)
+  const Real front_contacts2bn0_y = q0r0_y * front_contactc_z + q0r2_y * front_contactc_x;
+  const Real front_contacts2bn0_z = q0r0_z * front_contactc_z - q0r2_z * front_contactc_x;
+  const Real front_contacts2bn2_y = Real(0.3090169943749474) * front_contacts2bn0_z + Real(0.9510565162951535)
       * front_contacts2bn0_x;
   const Real front_contacts2bn3p_x = c2 * front_contacts2bn0_y + s2 * front_contacts2bn2_y;
-  const Real front_contacts2bm_z = model.r_front_y * front_contactbd0p_y - (Real(0.3090169943749474) *
-      front_contacts2bn0_x + Real(0.9510565162951535) * front_contacts2bn0_z);
-  const Real front_contacts2bm_x = front_contactbx3_x * q0r1_z - (front_contacts2bn0_x + front_contactbx2p_z *
-      q0r1_y);
-  const Real front_contacts2bm_y = front_contactbx2p_x * q0r1_z + (front_contacts2bn0_y + front_contactbx2p_z
-      * q0r1_x);
-  const Real front_contacts2bm_z_2 = front_contactbx2p_x * q0r1_y + (front_contacts2bn0_z + front_contactbx3_x
-      * q0r1_x);
-  const Real t219 = state.y[3] * state.y[3] - Real(0.5) * (q011 + (q022 - q033));
-  const Real rear_contacts0 = rear_contacts1bn0_y * state.z[6] - (rear_contacts1bn0_z * state.z[5] -
-      (rear_contacts1bm_y * state.z[4] - (state.z[0] + rear_contacts1bm_x * state.z[3])));
-  const Real rear_contacts1 = rear_contacts2bn0_y * state.z[6] + (rear_contacts2bn0_z * state.z[5] +
-      (rear_contacts2bm_y * state.z[4] - (state.z[1] - rear_contacts2bm_x * state.z[3])));
-  const Real front_contacts0 = front_contacts1bn3p_x * state.z[8] - (front_contacts1bm_z * state.z[7] +
-      (front_contacts1bm_z_2 * state.z[5] - (front_contacts1bm_y * state.z[4] - (state.z[0] +
-      front_contacts1bm_x * state.z[3]))));
-  const Real front_contacts1 = front_contacts2bn3p_x * state.z[8] - (front_contacts2bm_z * state.z[7] -
-      (front_contacts2bm_z_2 * state.z[5] + (front_contacts2bm_y * state.z[4] - (state.z[1] +
-      front_contacts2bm_x * state.z[3]))));
+  const Real front_contacts2bm_z = Real(0.9510565162951535) * front_contacts2bn0_z - (Real(0.3090169943749474)
+      * front_contacts2bn0_x - model.r_front_y * front_contactbd0p_y);
+  const Real front_contacts2bm_x = front_contactbx2p_z * q0r1_y - (front_contacts2bn0_x + front_contactbx3_x *
+      q0r1_z);
+  const Real front_contacts2bm_y = front_contactbx2p_z * q0r1_x + (front_contacts2bn0_y + front_contactbx2p_x
+      * q0r1_z);
+  const Real front_contacts2bm_z_2 = front_contactbx3_x * q0r1_x + (front_contacts2bn0_z + front_contactbx2p_x
+      * q0r1_y);
+  const Real rear_contacts0 = rear_contacts1bm_x * state.z[3] - (state.z[0] - (rear_contacts1bm_y * state.z[4]
+      - (rear_contacts1bn0_z * state.z[5] - rear_contacts1bn0_y * state.z[6])));
+  const Real rear_contacts1 = rear_contacts2bm_x * state.z[3] + (state.z[1] - (rear_contacts2bm_y * state.z[4]
+      + (rear_contacts2bn0_z * state.z[5] + rear_contacts2bn0_y * state.z[6])));
+  const Real front_contacts0 = front_contacts1bm_x * state.z[3] + (state.z[0] + (front_contacts1bm_y *
+      state.z[4] + (front_contacts1bm_z_2 * state.z[5] + (front_contacts1bm_z * state.z[7] -
+      front_contacts1bn3p_x * state.z[8]))));
+  const Real front_contacts1 = front_contacts2bm_x * state.z[3] - (state.z[1] - (front_contacts2bm_y *
+      state.z[4] + (front_contacts2bm_z_2 * state.z[5] + (front_contacts2bm_z * state.z[7] +
+      front_contacts2bn3p_x * state.z[8]))));
   g[0] = -g_rear_contact;
   g[1] = Real(0.0);
   g[2] = Real(0.0);
   g[3] = -g_front_contact;
   g[4] = Real(0.0);
   g[5] = Real(0.0);
-  g_rate[0] = -(state.z[2] + model.rear_radius * (state.z[5] * (t63 * (q0r2_x * t60)) + (state.z[3] * (q0r2_y
-      - t63 * (t60 * t219)) - q0r2_x * state.z[4])));
+  g_rate[0] = -((q0r2_y * model.rear_radius + t89 * t95) * state.z[3] + (state.z[2] - (model.rear_radius *
+      (q0r2_x * state.z[4]) - q0r2_x * t95 * state.z[5])));
   g_rate[1] = -rear_contacts0;
-  g_rate[2] = rear_contacts1;
-  g_rate[3] = -((c2 * (q0r2_y * model.r_front_y - t67 * t74) - s2 * (q0r2_y * t67 + model.r_front_y * t74)) *
-      state.z[7] + (state.z[5] * (q0r2_y * t71 - (q0r2_x * front_contactbx3_x + c2 * t70)) - (state.z[4] *
-      (t71 * t219 + (q0r2_x * front_contactbx2p_z - front_contactbd2p_z * t70)) - (state.z[2] + state.z[3] *
-      (t67 * (c2 * t219 - q0r2_y * front_contactbd2p_z) + (front_contactbx3_x * t219 + q0r2_y *
-      front_contactbx2p_z))))));
-  g_rate[4] = -front_contacts0;
+  g_rate[2] = -rear_contacts1;
+  g_rate[3] = -((q0r2_y * t77 - t79 * t89) * state.z[3] + (state.z[2] - ((q0r2_x * t77 - t80 * t89) *
+      state.z[4] + ((q0r2_x * t79 - q0r2_y * t80) * state.z[5] - (q0r2_y * front_contactbx3_y + ((c2 * t66 +
+      q0r2_y * s2) * t72 - front_contactbx3_x * t66)) * state.z[7]))));
+  g_rate[4] = front_contacts0;
   g_rate[5] = front_contacts1;
 }
 
@@ -2196,50 +2133,45 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t54 = front_contactbd0p_z + front_contactbd0p_z;
   const Real t55 = Real(1.0) / front_contactup;
   const Real t56 = Real(0.5) * t55;
-  const Real t58 = t56 * model.front_radius;
-  const Real t59 = t54 * t58;
-  const Real t64 = front_contactbx2p_z - front_contactbd2p_z * t59;
-  const Real t65 = front_contactbx3_x + c2 * t59;
-  const Real t66 = front_contactbx2p_x - front_contactbd2p_x * t59;
-  const Real t69 = q0r2_z * Real(0.3090169943749474) + q0r2_x * Real(0.9510565162951535);
-  const Real t71 = q0r2_y * t59 + model.r_front_y * t69;
-  const Real t74 = q0r2_y * model.r_front_y - t59 * t69;
-  const Real t77 = c2 * t74 - s2 * t71;
-  const Real t82 = t51 * t53;
-  const Real t84 = t82 * model.rear_radius;
-  const Real t86 = q0d1 * t84;
-  const Real t89 = q0d2 * t66 - q0d1 * t65;
-  const Real t109 = q0d2 * t84;
-  const Real t110 = Real(2.0) * (state.y[4] * t66 + state.y[5] * t65);
-  const Real t119 = state.y[5] * model.mr_z - (q0d3 * t84 - q0d2 * model.rear_radius);
-  const Real t122 = Real(2.0) * (state.y[3] * t66 - state.y[5] * t64) - (q0d3 * t65 + q0d2 * t64);
-  const Real t129 = q0d1 * model.rear_radius - Real(2.0) * (state.y[3] * t84 - state.y[4] *
-      model.rear_radius);
-  const Real t132 = Real(2.0) * (state.y[3] * t65 + state.y[4] * t64) + (q0d3 * t66 + q0d1 * t64);
-  const Real t138 = t49 * t129 - (t48 * t119 - (t50 * t86 - t47 * t109));
+  const Real t62 = q0r2_x * Real(0.9510565162951535) + q0r2_z * Real(0.3090169943749474);
+  const Real t65 = c2 * t62 + q0r2_y * s2;
+  const Real t66 = t54 * t56;
+  const Real t68 = t66 * model.front_radius;
+  const Real t69 = c2 * t68;
+  const Real t70 = front_contactbd2p_z * t68;
+  const Real t73 = front_contactbx2p_z - t70;
+  const Real t75 = front_contactbx3_x + t69;
+  const Real t76 = front_contactbx2p_x - front_contactbd2p_x * t68;
+  const Real t79 = front_contactbx3_x * t62 + (t65 * t68 - q0r2_y * front_contactbx3_y);
+  const Real q012 = q0d1 * state.y[5];
+  const Real t84 = q0d1 * t48 - (state.y[3] * state.y[3] + (q0d3 * t50 - q022 * Real(0.5)));
+  const Real t86 = t53 * model.rear_radius;
+  const Real t91 = t51 * t86;
+  const Real t95 = q0r2_x * t91;
   const Real q033 = state.y[6] * q0d3;
-  const Real q012 = state.y[4] * q0d2;
   const Real q003 = q0d3 * state.y[3];
   const Real q0r0_x = Real(1.0) - (q022 + q033);
   const Real q0r0_y = q012 - q003;
   const Real q0r1_x = q012 + q003;
   const Real q0r1_y = t14 + q033;
   const Real q0r1_z = q023 - q001;
-  const Real t150 = model.rear_radius * q0r1_y;
-  const Real rear_contactc_y = t82 * t150;
+  const Real t106 = model.rear_radius * q0r1_y;
+  const Real rear_contactc_y = t91 * q0r1_y;
   const Real rear_contactc_z = model.rear_radius * (t17 / rear_contactup);
-  const Real rear_contacts1bn0_y = t52 * t150;
+  const Real rear_contacts1bn0_y = t52 * t106;
   const Real rear_contacts1bn0_z = q0r1_z * rear_contactc_z + q0r2_z * rear_contactc_y;
-  const Real t160 = model.rear_radius * q0r0_y;
+  const Real t116 = model.rear_radius * q0r0_y;
   const Real q0r0_z = q013 + q002;
-  const Real rear_contactc_x = t82 * t160;
-  const Real rear_contacts2bn0_y = t52 * t160;
+  const Real rear_contactc_x = t91 * q0r0_y;
+  const Real rear_contacts2bn0_y = t52 * t116;
   const Real rear_contacts2bn0_z = rear_contactc_z * q0r0_z - q0r2_z * rear_contactc_x;
   const Real front_contactbd0p_y = front_contactbd2p_z * q0r1_z - (front_contactbd2p_x * q0r1_x + c2 *
       q0r1_y);
-  const Real front_contactc_y = t59 * front_contactbd0p_y;
+  const Real t132 = model.front_radius * front_contactbd0p_y;
+  const Real front_contactc_y = t66 * t132;
   const Real front_contactc_z = model.front_radius * (t44 / front_contactup);
-  const Real front_contacts1bf2_y = Real(0.3090169943749474) * q0r0_z - Real(0.9510565162951535) * q0r0_x;
+  const Real t137 = Real(0.9510565162951535) * q0r0_x;
+  const Real front_contacts1bf2_y = Real(0.3090169943749474) * q0r0_z - t137;
   const Real front_contacts1bn0_x = q0r1_x * front_contactc_z - q0r2_x * front_contactc_y;
   const Real front_contacts1bn0_y = q0r1_y * front_contactc_z + q0r2_y * front_contactc_y;
   const Real front_contacts1bn0_z = q0r1_z * front_contactc_z + q0r2_z * front_contactc_y;
@@ -2248,18 +2180,17 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real front_contacts1bn3p_x = c2 * front_contacts1bn0_y - s2 * front_contacts1bn2_y;
   const Real front_contacts1bm_z = front_contactbx3_x * front_contacts1bf2_y + (front_contactbx3_y * q0r0_y +
       (Real(0.3090169943749474) * front_contacts1bn0_x + Real(0.9510565162951535) * front_contacts1bn0_z));
-  const Real front_contactbd0p_x = front_contactbd2p_z * q0r0_z - (front_contactbd2p_x * q0r0_x - c2 *
-      q0r0_y);
-  const Real front_contactc_x = t59 * front_contactbd0p_x;
-  const Real front_contacts2bf2_y = Real(0.3090169943749474) * q0r1_z - Real(0.9510565162951535) * q0r1_x;
+  const Real front_contactbd0p_x = c2 * q0r0_y + s2 * front_contacts1bf2_y;
+  const Real t170 = model.front_radius * front_contactbd0p_x;
+  const Real front_contactc_x = t66 * t170;
   const Real front_contacts2bn0_x = q0r0_x * front_contactc_z - q0r2_x * front_contactc_x;
   const Real front_contacts2bn0_y = q0r0_y * front_contactc_z - q0r2_y * front_contactc_x;
   const Real front_contacts2bn0_z = q0r0_z * front_contactc_z + q0r2_z * front_contactc_x;
   const Real front_contacts2bn2_y = Real(0.3090169943749474) * front_contacts2bn0_z - Real(0.9510565162951535)
       * front_contacts2bn0_x;
   const Real front_contacts2bn3p_x = c2 * front_contacts2bn0_y + s2 * front_contacts2bn2_y;
-  const Real front_contacts2bm_z = front_contactbx3_x * front_contacts2bf2_y - (front_contactbx3_y * q0r1_y +
-      (Real(0.3090169943749474) * front_contacts2bn0_x + Real(0.9510565162951535) * front_contacts2bn0_z));
+  const Real front_contacts2bm_z = model.r_front_y * front_contactbd0p_y - (Real(0.3090169943749474) *
+      front_contacts2bn0_x + Real(0.9510565162951535) * front_contacts2bn0_z);
   const Real S2b_t = s2 * model.S2b_d;
   const Real S2b_xx = s2 * S2b_t - Real(0.003500000000000002);
   const Real S2b_xy = c2 * S2b_t;
@@ -2270,31 +2201,31 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real h2b_y = c2 * model.front_h_y;
   const Real h2at2_x = Real(0.9510565162951535) * h2b_y;
   const Real h2at2_z = Real(0.3090169943749474) * h2b_y;
-  const Real t271 = Real(0.3090169943749474) * S2b_yz;
-  const Real S2at2r0_y = t271 + Real(0.9510565162951535) * S2b_yy;
-  const Real t274 = Real(0.9510565162951535) * S2b_yz;
-  const Real S2at2r0_z = t274 + Real(0.04326237921249264);
-  const Real S2at2r2_y = t274 - Real(0.3090169943749474) * S2b_yy;
+  const Real t222 = Real(0.3090169943749474) * S2b_yz;
+  const Real S2at2r0_y = t222 + Real(0.9510565162951535) * S2b_yy;
+  const Real t225 = Real(0.9510565162951535) * S2b_yz;
+  const Real S2at2r0_z = t225 + Real(0.04326237921249264);
+  const Real S2at2r2_y = t225 - Real(0.3090169943749474) * S2b_yy;
   const Real h2c_x = h2at2_x + model.c6;
   const Real h2c_z = h2at2_z + model.c7;
-  const Real t289 = h2b_x * model.r_steer_x;
-  const Real S2c_xy = t289 + (Real(0.3090169943749474) * S2b_xz - Real(0.9510565162951535) * S2b_xy);
-  const Real t300 = h2at2_z - model.h_z;
+  const Real t240 = h2b_x * model.r_steer_x;
+  const Real S2c_xy = t240 + (Real(0.3090169943749474) * S2b_xz - Real(0.9510565162951535) * S2b_xy);
+  const Real t251 = h2at2_z - model.h_z;
   const Real S2c_xz = Real(0.3090169943749474) * (S2at2r0_y - model.SR_z) + ((h2at2_x + model.c9) *
-      model.r_steer_z - (Real(0.9510565162951535) * S2at2r0_z - model.r_steer_x * t300)) +
+      model.r_steer_z - (Real(0.9510565162951535) * S2at2r0_z - model.r_steer_x * t251)) +
       Real(25.349999999999998);
   const Real S2c_yy = S2b_xx - Real(0.5002999999999995);
-  const Real t309 = h2b_x * model.r_steer_z;
-  const Real S2c_yz = t309 - (Real(0.3090169943749474) * S2b_xy + Real(0.9510565162951535) * S2b_xz);
+  const Real t260 = h2b_x * model.r_steer_z;
+  const Real S2c_yz = t260 - (Real(0.3090169943749474) * S2b_xy + Real(0.9510565162951535) * S2b_xz);
   const Real S1c_xx = (h2at2_x + model.h_x) * model.c14 + (Real(0.9510565162951535) * S2at2r0_y +
       Real(0.3090169943749474) * (S2at2r0_z + model.SR_x)) + model.c16;
-  const Real S1c_zz = t300 * model.c17 - (Real(0.3090169943749474) * S2at2r2_y + Real(0.9510565162951535) *
-      (t271 - model.c18)) + model.c19;
+  const Real S1c_zz = t251 * model.c17 - (Real(0.3090169943749474) * S2at2r2_y + Real(0.9510565162951535) *
+      (t222 - model.c18)) + model.c19;
   const Real p_7_2l_x = h2b_y * model.r_steer_z;
   const Real p_7_2l_z = h2b_y * model.r_steer_x;
-  const Real p_7_2n_x = t274 - p_7_2l_x + model.c20;
-  const Real p_7_2n_y = t309 * Real(0.9510565162951535) - (S2b_xz + t289 * Real(0.3090169943749474));
-  const Real p_7_2n_z = t271 + p_7_2l_z - model.c21;
+  const Real p_7_2n_x = t225 - p_7_2l_x + model.c20;
+  const Real p_7_2n_y = t260 * Real(0.9510565162951535) - (S2b_xz + t240 * Real(0.3090169943749474));
+  const Real p_7_2n_z = t222 + p_7_2l_z - model.c21;
   const Real p_7_0f_x = front_contactbd0p_x * model.front_h_y;
   const Real p_7_0f_y = front_contactbd0p_y * model.front_h_y;
   const Real p_7_0f_z = front_contactbd0p_z * model.front_h_y;
@@ -2302,268 +2233,250 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real p_8_3N_y = s2 * Real(0.28);
   const Real p_8_2n_x = Real(0.9510565162951535) * p_8_3N_y;
   const Real p_8_2n_z = Real(0.3090169943749474) * p_8_3N_y;
-  const Real t373 = p_8_2n_z * Real(3.571428571428571);
-  const Real t377 = p_8_3N_x * Real(3.571428571428571);
-  const Real t380 = p_8_2n_x * Real(3.571428571428571);
-  const Real t383 = p_7_2n_z * model.c30;
-  const Real t390 = p_7_2n_y * t383 + (S2c_yz - p_8_3N_x * t373);
-  const Real t393 = p_7_2n_x * t383 - (S2c_xz + p_8_2n_x * t373);
-  const Real t396 = p_7_0f_z * t383 + (q0r2_x * h2b_x - q0r2_y * h2c_x);
-  const Real t399 = p_7_0f_y * t383 - (q0r1_x * h2b_x + q0r1_y * h2c_x);
-  const Real t402 = p_7_0f_x * t383 - (q0r0_x * h2b_x - q0r0_y * h2c_x);
-  const Real t403 = p_7_2n_y * model.c30;
-  const Real t409 = p_7_2n_x * model.c30;
-  const Real t414 = p_7_0f_z * model.c30;
-  const Real t418 = p_7_0f_y * model.c30;
-  const Real t421 = p_7_0f_x * model.c30;
-  const Real t423 = Real(1.0) / (p_7_2n_z * t383 - (p_8_2n_z * t373 + (S2c_yy - S1c_xx)));
-  const Real t424 = t390 * t423;
-  const Real t435 = t393 * t424 - (p_7_2n_x * t403 + (S2c_xy - p_8_2n_x * t377));
-  const Real t439 = t396 * t424 - (p_7_0f_z * t403 + (q0r2_x * h2c_z - q0r2_z * h2c_x));
-  const Real t443 = t399 * t424 - (p_7_0f_y * t403 - (q0r1_x * h2c_z + q0r1_z * h2c_x));
-  const Real t447 = t402 * t424 - (p_7_0f_x * t403 - (q0r0_x * h2c_z + q0r0_z * h2c_x));
-  const Real t448 = t393 * t423;
-  const Real t453 = t396 * t423;
-  const Real t457 = t399 * t423;
-  const Real t460 = t402 * t423;
-  const Real t462 = Real(1.0) / (t390 * t424 - (p_7_2n_y * t403 - (p_8_3N_x * t377 - (S1c_xx + S1c_zz))) +
+  const Real t324 = p_8_2n_z * Real(3.571428571428571);
+  const Real t328 = p_8_3N_x * Real(3.571428571428571);
+  const Real t331 = p_8_2n_x * Real(3.571428571428571);
+  const Real t334 = p_7_2n_z * model.c29;
+  const Real t341 = p_7_2n_y * t334 + (S2c_yz - p_8_3N_x * t324);
+  const Real t344 = p_7_2n_x * t334 - (S2c_xz + p_8_2n_x * t324);
+  const Real t347 = p_7_0f_z * t334 + (q0r2_x * h2b_x - q0r2_y * h2c_x);
+  const Real t350 = p_7_0f_y * t334 - (q0r1_x * h2b_x + q0r1_y * h2c_x);
+  const Real t353 = p_7_0f_x * t334 - (q0r0_x * h2b_x - q0r0_y * h2c_x);
+  const Real t354 = p_7_2n_y * model.c29;
+  const Real t360 = p_7_2n_x * model.c29;
+  const Real t365 = p_7_0f_z * model.c29;
+  const Real t369 = p_7_0f_y * model.c29;
+  const Real t372 = p_7_0f_x * model.c29;
+  const Real t374 = Real(1.0) / (p_7_2n_z * t334 - (p_8_2n_z * t324 + (S2c_yy - S1c_xx)));
+  const Real t375 = t341 * t374;
+  const Real t386 = t344 * t375 - (p_7_2n_x * t354 + (S2c_xy - p_8_2n_x * t328));
+  const Real t390 = t347 * t375 - (p_7_0f_z * t354 + (q0r2_x * h2c_z - q0r2_z * h2c_x));
+  const Real t394 = t350 * t375 - (p_7_0f_y * t354 - (q0r1_x * h2c_z + q0r1_z * h2c_x));
+  const Real t398 = t353 * t375 - (p_7_0f_x * t354 - (q0r0_x * h2c_z + q0r0_z * h2c_x));
+  const Real t399 = t344 * t374;
+  const Real t404 = t347 * t374;
+  const Real t408 = t350 * t374;
+  const Real t411 = t353 * t374;
+  const Real t413 = Real(1.0) / (t341 * t375 - (p_7_2n_y * t354 - (p_8_3N_x * t328 - (S1c_xx + S1c_zz))) +
       Real(0.12));
-  const Real t463 = t435 * t462;
-  const Real t474 = t439 * t463 - (t396 * t448 - (p_7_0f_z * t409 + (q0r2_y * h2c_z - q0r2_z * h2b_x)));
-  const Real t479 = t443 * t463 - (t399 * t448 - (p_7_0f_y * t409 + (q0r1_y * h2c_z - q0r1_z * h2b_x)));
-  const Real t484 = t447 * t463 - (t402 * t448 - (p_7_0f_x * t409 - (q0r0_y * h2c_z + q0r0_z * h2b_x)));
-  const Real t485 = t439 * t462;
-  const Real t489 = t443 * t462;
-  const Real t492 = t447 * t462;
-  const Real t494 = Real(1.0) / (t435 * t463 - (t393 * t448 - (p_7_2n_x * t409 - (p_8_2n_x * t380 + (S2c_yy -
+  const Real t414 = t386 * t413;
+  const Real t425 = t390 * t414 - (t347 * t399 - (p_7_0f_z * t360 + (q0r2_y * h2c_z - q0r2_z * h2b_x)));
+  const Real t430 = t394 * t414 - (t350 * t399 - (p_7_0f_y * t360 + (q0r1_y * h2c_z - q0r1_z * h2b_x)));
+  const Real t435 = t398 * t414 - (t353 * t399 - (p_7_0f_x * t360 - (q0r0_y * h2c_z + q0r0_z * h2b_x)));
+  const Real t436 = t390 * t413;
+  const Real t440 = t394 * t413;
+  const Real t443 = t398 * t413;
+  const Real t445 = Real(1.0) / (t386 * t414 - (t344 * t399 - (p_7_2n_x * t360 - (p_8_2n_x * t331 + (S2c_yy -
       S1c_zz)))));
-  const Real t495 = t474 * t494;
-  const Real t505 = t479 * t495 - (t443 * t485 + (p_7_0f_y * t414 - t399 * t453));
-  const Real t509 = t484 * t495 - (t447 * t485 + (p_7_0f_x * t414 - t402 * t453));
-  const Real t510 = t479 * t494;
-  const Real t513 = t484 * t494;
-  const Real t515 = Real(1.0) / (t474 * t495 - (t439 * t485 + (p_7_0f_z * t414 - t396 * t453)) - Real(94.0));
-  const Real t516 = t505 * t515;
-  const Real t527 = t509 * t516 - (t484 * t510 - (t447 * t489 + (p_7_0f_x * t418 - t402 * t457)));
-  const Real t528 = t509 * t515;
-  const Real t530 = Real(1.0) / (t505 * t516 - (t479 * t510 - (t443 * t489 - (t399 * t457 - (p_7_0f_y * t418 +
+  const Real t446 = t425 * t445;
+  const Real t456 = t430 * t446 - (t394 * t436 + (p_7_0f_y * t365 - t350 * t404));
+  const Real t460 = t435 * t446 - (t398 * t436 + (p_7_0f_x * t365 - t353 * t404));
+  const Real t461 = t430 * t445;
+  const Real t464 = t435 * t445;
+  const Real t466 = Real(1.0) / (t425 * t446 - (t390 * t436 + (p_7_0f_z * t365 - t347 * t404)) - Real(94.0));
+  const Real t467 = t456 * t466;
+  const Real t478 = t460 * t467 - (t435 * t461 - (t398 * t440 + (p_7_0f_x * t369 - t353 * t408)));
+  const Real t479 = t460 * t466;
+  const Real t481 = Real(1.0) / (t456 * t467 - (t430 * t461 - (t394 * t440 - (t350 * t408 - (p_7_0f_y * t369 +
       Real(94.0))))));
-  const Real t531 = t527 * t530;
-  const Real t539 = Real(1.0) / (t527 * t531 - (t509 * t528 - (t484 * t513 - (t447 * t492 - (t402 * t460 -
-      (p_7_0f_x * t421 + Real(94.0)))))));
-  const Real t542 = t138 * t424 - (t47 * t119 - t50 * t129);
-  const Real t552 = t463 * t542 - (t138 * t448 + (t47 * t129 + (t50 * t119 + (t48 * t86 + t49 * t109))));
-  const Real t559 = t495 * t552 - (t485 * t542 - (Real(1.0) + t138 * t453));
-  const Real t565 = t516 * t559 - (t510 * t552 + (t138 * t457 - t489 * t542));
-  const Real t571 = t531 * t565 - (t528 * t559 - (t513 * t552 + (t138 * t460 - t492 * t542)));
-  const Real t573 = model.rear_radius * q0r0_x + rear_contacts1bn0_z * t424;
-  const Real t582 = t463 * t573 - (rear_contacts1bn0_z * t448 + (t160 + (q0r1_x * rear_contactc_z - q0r2_x *
+  const Real t482 = t478 * t481;
+  const Real t490 = Real(1.0) / (t478 * t482 - (t460 * t479 - (t435 * t464 - (t398 * t443 - (t353 * t411 -
+      (p_7_0f_x * t372 + Real(94.0)))))));
+  const Real t492 = q0r2_x * model.rear_radius + t95 * t375;
+  const Real t500 = t414 * t492 - (t95 * t399 + (q0r2_y * model.rear_radius + t84 * t91));
+  const Real t507 = t446 * t500 - (t436 * t492 - (Real(1.0) + t95 * t404));
+  const Real t513 = t467 * t507 - (t461 * t500 + (t95 * t408 - t440 * t492));
+  const Real t519 = t482 * t513 - (t479 * t507 - (t464 * t500 + (t95 * t411 - t443 * t492)));
+  const Real t521 = model.rear_radius * q0r0_x + rear_contacts1bn0_z * t375;
+  const Real t530 = t414 * t521 - (rear_contacts1bn0_z * t399 + (t116 + (q0r1_x * rear_contactc_z - q0r2_x *
       rear_contactc_y)));
-  const Real t588 = t495 * t582 + (rear_contacts1bn0_z * t453 - t485 * t573);
-  const Real t594 = t516 * t588 - (t510 * t582 + (rear_contacts1bn0_z * t457 - t489 * t573));
-  const Real t601 = t531 * t594 - (t528 * t588 - (t513 * t582 - (t492 * t573 + (Real(1.0) -
-      rear_contacts1bn0_z * t460))));
-  const Real t603 = model.rear_radius * q0r1_x - rear_contacts2bn0_z * t424;
-  const Real t612 = t463 * t603 + (rear_contacts2bn0_z * t448 + (q0r2_x * rear_contactc_x + (t150 + q0r0_x *
+  const Real t536 = t446 * t530 + (rear_contacts1bn0_z * t404 - t436 * t521);
+  const Real t542 = t467 * t536 - (t461 * t530 + (rear_contacts1bn0_z * t408 - t440 * t521));
+  const Real t549 = t482 * t542 - (t479 * t536 - (t464 * t530 - (t443 * t521 + (Real(1.0) -
+      rear_contacts1bn0_z * t411))));
+  const Real t551 = model.rear_radius * q0r1_x - rear_contacts2bn0_z * t375;
+  const Real t560 = t414 * t551 + (rear_contacts2bn0_z * t399 + (q0r2_x * rear_contactc_x + (t106 + q0r0_x *
       rear_contactc_z)));
-  const Real t618 = t495 * t612 - (rear_contacts2bn0_z * t453 + t485 * t603);
-  const Real t625 = t516 * t618 - (t510 * t612 - (t489 * t603 + (Real(1.0) + rear_contacts2bn0_z * t457)));
-  const Real t631 = t531 * t625 - (t528 * t618 - (t513 * t612 - (rear_contacts2bn0_z * t460 + t492 * t603)));
-  const Real t633 = t50 * t89 + t47 * t110;
-  const Real t635 = t77 * t383 + (t633 + t633);
-  const Real t646 = t424 * t635 - (t77 * t403 - (t50 * t132 + (t47 * t122 - (t49 * t89 + t48 * t110))));
-  const Real t657 = t463 * t646 - (t448 * t635 - (t77 * t409 - (t47 * t132 - (t50 * t122 - (t48 * t89 - t49 *
-      t110)))));
-  const Real t665 = t495 * t657 - (t485 * t646 - (t453 * t635 + (Real(1.0) - t77 * t414)));
-  const Real t672 = t516 * t665 - (t510 * t657 - (t489 * t646 + (t77 * t418 - t457 * t635)));
-  const Real t679 = t531 * t672 - (t528 * t665 - (t513 * t657 - (t492 * t646 + (t77 * t421 - t460 * t635))));
-  const Real t687 = front_contacts1bm_z * t383 + (front_contacts1bn3p_x * t373 + (front_contactbx2p_x * q0r0_y
+  const Real t566 = t446 * t560 - (rear_contacts2bn0_z * t404 + t436 * t551);
+  const Real t573 = t467 * t566 - (t461 * t560 - (t440 * t551 + (Real(1.0) + rear_contacts2bn0_z * t408)));
+  const Real t579 = t482 * t573 - (t479 * t566 - (t464 * t560 - (rear_contacts2bn0_z * t411 + t443 * t551)));
+  const Real t582 = t79 * t334 + (q0r2_x * t75 - q0r2_y * t76);
+  const Real t591 = t375 * t582 - (t79 * t354 + (q0r2_x * t73 - t76 * t84));
+  const Real t600 = t414 * t591 - (t399 * t582 - (t79 * t360 + (q0r2_y * t73 - t75 * t84)));
+  const Real t608 = t446 * t600 - (t436 * t591 - (t404 * t582 - (Real(1.0) + t79 * t365)));
+  const Real t615 = t467 * t608 - (t461 * t600 - (t440 * t591 + (t79 * t369 - t408 * t582)));
+  const Real t622 = t482 * t615 - (t479 * t608 - (t464 * t600 - (t443 * t591 + (t79 * t372 - t411 * t582))));
+  const Real t630 = front_contacts1bm_z * t334 + (front_contacts1bn3p_x * t324 + (front_contactbx2p_x * q0r0_y
       + (front_contacts1bn0_z - front_contactbx3_x * q0r0_x)));
-  const Real t698 = t424 * t687 - (front_contacts1bm_z * t403 + (front_contacts1bn3p_x * t377 -
+  const Real t641 = t375 * t630 - (front_contacts1bm_z * t354 + (front_contacts1bn3p_x * t328 -
       (front_contactbx2p_x * q0r0_z + (front_contacts1bn0_y + front_contactbx2p_z * q0r0_x))));
-  const Real t709 = t463 * t698 - (t448 * t687 - (front_contacts1bm_z * t409 + (front_contacts1bn3p_x * t380 -
+  const Real t652 = t414 * t641 - (t399 * t630 - (front_contacts1bm_z * t360 + (front_contacts1bn3p_x * t331 -
       (front_contactbx3_x * q0r0_z + (front_contacts1bn0_x + front_contactbx2p_z * q0r0_y)))));
-  const Real t716 = t495 * t709 - (t485 * t698 + (front_contacts1bm_z * t414 - t453 * t687));
-  const Real t723 = t516 * t716 - (t510 * t709 - (t489 * t698 + (front_contacts1bm_z * t418 - t457 * t687)));
-  const Real t731 = t531 * t723 - (t528 * t716 - (t513 * t709 - (t492 * t698 - (t460 * t687 - (Real(1.0) +
-      front_contacts1bm_z * t421)))));
-  const Real t739 = front_contacts2bm_z * t383 + (front_contacts2bn3p_x * t373 - (front_contactbx2p_x * q0r1_y
+  const Real t659 = t446 * t652 - (t436 * t641 + (front_contacts1bm_z * t365 - t404 * t630));
+  const Real t666 = t467 * t659 - (t461 * t652 - (t440 * t641 + (front_contacts1bm_z * t369 - t408 * t630)));
+  const Real t674 = t482 * t666 - (t479 * t659 - (t464 * t652 - (t443 * t641 - (t411 * t630 - (Real(1.0) +
+      front_contacts1bm_z * t372)))));
+  const Real t682 = front_contacts2bm_z * t334 + (front_contacts2bn3p_x * t324 - (front_contactbx2p_x * q0r1_y
       + (front_contacts2bn0_z + front_contactbx3_x * q0r1_x)));
-  const Real t750 = t424 * t739 - (front_contacts2bm_z * t403 + (front_contacts2bn3p_x * t377 -
+  const Real t693 = t375 * t682 - (front_contacts2bm_z * t354 + (front_contacts2bn3p_x * t328 -
       (front_contactbx2p_x * q0r1_z + (front_contacts2bn0_y + front_contactbx2p_z * q0r1_x))));
-  const Real t761 = t463 * t750 - (t448 * t739 - (front_contacts2bm_z * t409 + (front_contacts2bn3p_x * t380 -
+  const Real t704 = t414 * t693 - (t399 * t682 - (front_contacts2bm_z * t360 + (front_contacts2bn3p_x * t331 -
       (front_contactbx3_x * q0r1_z - (front_contacts2bn0_x + front_contactbx2p_z * q0r1_y)))));
-  const Real t768 = t495 * t761 - (t485 * t750 + (front_contacts2bm_z * t414 - t453 * t739));
-  const Real t776 = t516 * t768 - (t510 * t761 - (t489 * t750 - (t457 * t739 - (Real(1.0) +
-      front_contacts2bm_z * t418))));
-  const Real t783 = t531 * t776 - (t528 * t768 - (t513 * t761 - (t492 * t750 + (front_contacts2bm_z * t421 -
-      t460 * t739))));
-  const Real t796 = t539 * t601;
-  const Real t797 = t530 * t594;
-  const Real t798 = t515 * t588;
-  const Real t799 = t494 * t582;
-  const Real t800 = t462 * t573;
-  const Real t801 = rear_contacts1bn0_z * t423;
-  const Real t812 = t138 * t801 - (t542 * t800 - (t552 * t799 - (t559 * t798 + (t571 * t796 - t565 * t797))));
-  const Real t822 = t539 * t631;
-  const Real t823 = t530 * t625;
-  const Real t824 = t515 * t618;
-  const Real t825 = t494 * t612;
-  const Real t826 = t462 * t603;
-  const Real t827 = rear_contacts2bn0_z * t423;
-  const Real t828 = rear_contacts2bn0_y * Real(8.333333333333334);
-  const Real t839 = t138 * t827 + (t542 * t826 - (t552 * t825 - (t559 * t824 + (t571 * t822 - t565 * t823))));
-  const Real t854 = t539 * t679;
-  const Real t855 = t530 * t672;
-  const Real t856 = t515 * t665;
-  const Real t857 = t494 * t657;
-  const Real t858 = t462 * t646;
-  const Real t859 = t423 * t635;
-  const Real t870 = t138 * t859 - (t542 * t858 - (t552 * t857 - (t559 * t856 + (t571 * t854 - t565 * t855))));
-  const Real t891 = t539 * t731;
-  const Real t892 = t530 * t723;
-  const Real t893 = t515 * t716;
-  const Real t894 = t494 * t709;
-  const Real t895 = t462 * t698;
-  const Real t896 = t423 * t687;
-  const Real t897 = front_contacts1bm_z * model.c30;
-  const Real t908 = t138 * t896 - (t542 * t895 - (t552 * t894 - (t559 * t893 + (t571 * t891 - t565 * t892))));
-  const Real t937 = t539 * t783;
-  const Real t938 = t530 * t776;
-  const Real t939 = t515 * t768;
-  const Real t940 = t494 * t761;
-  const Real t941 = t462 * t750;
-  const Real t942 = t423 * t739;
-  const Real t943 = front_contacts2bm_z * model.c30;
-  const Real t944 = front_contacts2bn3p_x * Real(3.571428571428571);
-  const Real t955 = t138 * t942 - (t542 * t941 - (t552 * t940 - (t559 * t939 + (t571 * t937 - t565 * t938))));
-  const Real t998 = Real(1.0) / (t138 * (t138 * t423) - (t542 * (t462 * t542) - (t552 * (t494 * t552) - (t559
-      * (t515 * t559) + (t571 * (t539 * t571) - t565 * (t530 * t565))))) + Real(1.8087085566416913e-12));
-  const Real t999 = t812 * t998;
-  const Real t1010 = t839 * t998;
-  const Real t1018 = t812 * t1010 + (rear_contacts1bn0_y * t828 - (rear_contacts1bn0_z * t827 + (t573 * t826 -
-      (t582 * t825 - (t588 * t824 + (t601 * t822 - t594 * t823))))));
-  const Real t1020 = t870 * t998;
-  const Real t1027 = t812 * t1020 - (rear_contacts1bn0_z * t859 - (t573 * t858 - (t582 * t857 - (t588 * t856 +
-      (t601 * t854 - t594 * t855)))));
-  const Real t1030 = t908 * t998;
-  const Real t1037 = t812 * t1030 - (rear_contacts1bn0_z * t896 - (t573 * t895 - (t582 * t894 - (t588 * t893 +
-      (t601 * t891 - t594 * t892)))));
-  const Real t1041 = t955 * t998;
-  const Real t1048 = t812 * t1041 - (rear_contacts1bn0_z * t942 - (t573 * t941 - (t582 * t940 - (t588 * t939 +
-      (t601 * t937 - t594 * t938)))));
-  const Real t1053 = Real(1.0) / (t812 * t999 - (rear_contacts1bn0_y * rear_contacts1bn0_y *
-      Real(8.333333333333334) + (rear_contacts1bn0_z * t801 - (t573 * t800 - (t582 * t799 - (t588 * t798 +
-      (t601 * t796 - t594 * t797)))))) - Real(7.806783314072456e-11));
-  const Real t1054 = t1018 * t1053;
-  const Real t1066 = t1027 * t1053;
-  const Real t1074 = t1018 * t1066 - (t839 * t1020 - (rear_contacts2bn0_z * t859 + (t603 * t858 - (t612 * t857
-      - (t618 * t856 + (t631 * t854 - t625 * t855))))));
-  const Real t1076 = t1037 * t1053;
-  const Real t1084 = t1018 * t1076 - (t839 * t1030 - (rear_contacts2bn0_z * t896 + (t603 * t895 - (t612 * t894
-      - (t618 * t893 + (t631 * t891 - t625 * t892))))));
-  const Real t1087 = t1048 * t1053;
-  const Real t1095 = t1018 * t1087 - (t839 * t1041 - (rear_contacts2bn0_z * t942 + (t603 * t941 - (t612 * t940
-      - (t618 * t939 + (t631 * t937 - t625 * t938))))));
-  const Real t1099 = Real(1.0) / (t1018 * t1054 - (t839 * t1010 - (rear_contacts2bn0_y * t828 +
-      (rear_contacts2bn0_z * t827 - (t603 * t826 - (t612 * t825 - (t618 * t824 + (t631 * t822 - t625 *
-      t823))))))) + Real(8.816994788327498e-12));
-  const Real t1100 = t1074 * t1099;
-  const Real t1113 = t1084 * t1099;
-  const Real t1123 = t1074 * t1113 - (t1027 * t1076 - (t870 * t1030 + (t77 * t897 - (t635 * t896 - (t646 *
-      t895 - (t657 * t894 - (t665 * t893 + (t679 * t891 - t672 * t892))))))));
-  const Real t1125 = t1095 * t1099;
-  const Real t1135 = t1074 * t1125 - (t1027 * t1087 - (t870 * t1041 + (t77 * t943 - (t635 * t942 - (t646 *
-      t941 - (t657 * t940 - (t665 * t939 + (t679 * t937 - t672 * t938))))))));
-  const Real t1138 = Real(1.0) / (t1074 * t1100 - (t1027 * t1066 - (t870 * t1020 + (model.c30 * (t77 * t77) -
-      (t635 * t859 - (t646 * t858 - (t657 * t857 - (t665 * t856 + (t679 * t854 - t672 * t855)))))))) -
+  const Real t711 = t446 * t704 - (t436 * t693 + (front_contacts2bm_z * t365 - t404 * t682));
+  const Real t719 = t467 * t711 - (t461 * t704 - (t440 * t693 - (t408 * t682 - (Real(1.0) +
+      front_contacts2bm_z * t369))));
+  const Real t726 = t482 * t719 - (t479 * t711 - (t464 * t704 - (t443 * t693 + (front_contacts2bm_z * t372 -
+      t411 * t682))));
+  const Real t739 = t490 * t549;
+  const Real t740 = t481 * t542;
+  const Real t741 = t466 * t536;
+  const Real t742 = t445 * t530;
+  const Real t743 = t413 * t521;
+  const Real t744 = rear_contacts1bn0_z * t374;
+  const Real t755 = t95 * t744 - (t492 * t743 - (t500 * t742 - (t507 * t741 + (t519 * t739 - t513 * t740))));
+  const Real t765 = t490 * t579;
+  const Real t766 = t481 * t573;
+  const Real t767 = t466 * t566;
+  const Real t768 = t445 * t560;
+  const Real t769 = t413 * t551;
+  const Real t770 = rear_contacts2bn0_z * t374;
+  const Real t771 = rear_contacts2bn0_y * Real(8.333333333333334);
+  const Real t782 = t95 * t770 + (t492 * t769 - (t500 * t768 - (t507 * t767 + (t519 * t765 - t513 * t766))));
+  const Real t797 = t490 * t622;
+  const Real t798 = t481 * t615;
+  const Real t799 = t466 * t608;
+  const Real t800 = t445 * t600;
+  const Real t801 = t413 * t591;
+  const Real t802 = t374 * t582;
+  const Real t813 = t95 * t802 - (t492 * t801 - (t500 * t800 - (t507 * t799 + (t519 * t797 - t513 * t798))));
+  const Real t834 = t490 * t674;
+  const Real t835 = t481 * t666;
+  const Real t836 = t466 * t659;
+  const Real t837 = t445 * t652;
+  const Real t838 = t413 * t641;
+  const Real t839 = t374 * t630;
+  const Real t840 = front_contacts1bm_z * model.c29;
+  const Real t851 = t95 * t839 - (t492 * t838 - (t500 * t837 - (t507 * t836 + (t519 * t834 - t513 * t835))));
+  const Real t880 = t490 * t726;
+  const Real t881 = t481 * t719;
+  const Real t882 = t466 * t711;
+  const Real t883 = t445 * t704;
+  const Real t884 = t413 * t693;
+  const Real t885 = t374 * t682;
+  const Real t886 = front_contacts2bm_z * model.c29;
+  const Real t887 = front_contacts2bn3p_x * Real(3.571428571428571);
+  const Real t898 = t95 * t885 - (t492 * t884 - (t500 * t883 - (t507 * t882 + (t519 * t880 - t513 * t881))));
+  const Real t941 = Real(1.0) / (t95 * (t95 * t374) - (t492 * (t413 * t492) - (t500 * (t445 * t500) - (t507 *
+      (t466 * t507) + (t519 * (t490 * t519) - t513 * (t481 * t513))))) + Real(1.8087085566416913e-12));
+  const Real t942 = t755 * t941;
+  const Real t953 = t782 * t941;
+  const Real t961 = t755 * t953 + (rear_contacts1bn0_y * t771 - (rear_contacts1bn0_z * t770 + (t521 * t769 -
+      (t530 * t768 - (t536 * t767 + (t549 * t765 - t542 * t766))))));
+  const Real t963 = t813 * t941;
+  const Real t970 = t755 * t963 - (rear_contacts1bn0_z * t802 - (t521 * t801 - (t530 * t800 - (t536 * t799 +
+      (t549 * t797 - t542 * t798)))));
+  const Real t973 = t851 * t941;
+  const Real t980 = t755 * t973 - (rear_contacts1bn0_z * t839 - (t521 * t838 - (t530 * t837 - (t536 * t836 +
+      (t549 * t834 - t542 * t835)))));
+  const Real t984 = t898 * t941;
+  const Real t991 = t755 * t984 - (rear_contacts1bn0_z * t885 - (t521 * t884 - (t530 * t883 - (t536 * t882 +
+      (t549 * t880 - t542 * t881)))));
+  const Real t996 = Real(1.0) / (t755 * t942 - (rear_contacts1bn0_y * rear_contacts1bn0_y *
+      Real(8.333333333333334) + (rear_contacts1bn0_z * t744 - (t521 * t743 - (t530 * t742 - (t536 * t741 +
+      (t549 * t739 - t542 * t740)))))) - Real(7.806783314072456e-11));
+  const Real t997 = t961 * t996;
+  const Real t1009 = t970 * t996;
+  const Real t1017 = t961 * t1009 - (t782 * t963 - (rear_contacts2bn0_z * t802 + (t551 * t801 - (t560 * t800 -
+      (t566 * t799 + (t579 * t797 - t573 * t798))))));
+  const Real t1019 = t980 * t996;
+  const Real t1027 = t961 * t1019 - (t782 * t973 - (rear_contacts2bn0_z * t839 + (t551 * t838 - (t560 * t837 -
+      (t566 * t836 + (t579 * t834 - t573 * t835))))));
+  const Real t1030 = t991 * t996;
+  const Real t1038 = t961 * t1030 - (t782 * t984 - (rear_contacts2bn0_z * t885 + (t551 * t884 - (t560 * t883 -
+      (t566 * t882 + (t579 * t880 - t573 * t881))))));
+  const Real t1042 = Real(1.0) / (t961 * t997 - (t782 * t953 - (rear_contacts2bn0_y * t771 +
+      (rear_contacts2bn0_z * t770 - (t551 * t769 - (t560 * t768 - (t566 * t767 + (t579 * t765 - t573 *
+      t766))))))) + Real(8.816994788327498e-12));
+  const Real t1043 = t1017 * t1042;
+  const Real t1056 = t1027 * t1042;
+  const Real t1066 = t1017 * t1056 - (t970 * t1019 - (t813 * t973 + (t79 * t840 - (t582 * t839 - (t591 * t838
+      - (t600 * t837 - (t608 * t836 + (t622 * t834 - t615 * t835))))))));
+  const Real t1068 = t1038 * t1042;
+  const Real t1078 = t1017 * t1068 - (t970 * t1030 - (t813 * t984 + (t79 * t886 - (t582 * t885 - (t591 * t884
+      - (t600 * t883 - (t608 * t882 + (t622 * t880 - t615 * t881))))))));
+  const Real t1081 = Real(1.0) / (t1017 * t1043 - (t970 * t1009 - (t813 * t963 + (model.c29 * (t79 * t79) -
+      (t582 * t802 - (t591 * t801 - (t600 * t800 - (t608 * t799 + (t622 * t797 - t615 * t798)))))))) -
       Real(3.988016169236579e-12));
-  const Real t1139 = t1123 * t1138;
-  const Real t1154 = t1135 * t1138;
-  const Real t1166 = t1123 * t1154 - (t1084 * t1125 - (t1037 * t1087 - (t908 * t1041 - (front_contacts1bn3p_x
-      * t944 - (front_contacts1bm_z * t943 - (t687 * t942 - (t698 * t941 - (t709 * t940 - (t716 * t939 + (t731
-      * t937 - t723 * t938))))))))));
-  const Real t1168 = Real(1.0) / (t1123 * t1139 - (t1084 * t1113 - (t1037 * t1076 - (t908 * t1030 -
-      (Real(3.571428571428571) * (front_contacts1bn3p_x * front_contacts1bn3p_x) - (front_contacts1bm_z * t897
-      - (t687 * t896 - (t698 * t895 - (t709 * t894 - (t716 * t893 + (t731 * t891 - t723 * t892)))))))))) +
+  const Real t1082 = t1066 * t1081;
+  const Real t1097 = t1078 * t1081;
+  const Real t1109 = t1066 * t1097 - (t1027 * t1068 - (t980 * t1030 - (t851 * t984 - (front_contacts1bn3p_x *
+      t887 - (front_contacts1bm_z * t886 - (t630 * t885 - (t641 * t884 - (t652 * t883 - (t659 * t882 + (t674 *
+      t880 - t666 * t881))))))))));
+  const Real t1111 = Real(1.0) / (t1066 * t1082 - (t1027 * t1056 - (t980 * t1019 - (t851 * t973 -
+      (Real(3.571428571428571) * (front_contacts1bn3p_x * front_contacts1bn3p_x) - (front_contacts1bm_z * t840
+      - (t630 * t839 - (t641 * t838 - (t652 * t837 - (t659 * t836 + (t674 * t834 - t666 * t835)))))))))) +
       Real(4.6476630875276904e-11));
-  const Real t1169 = t1166 * t1168;
-  const Real t1185 = Real(1.0) / (t1166 * t1169 - (t1135 * t1154 - (t1095 * t1125 - (t1048 * t1087 - (t955 *
-      t1041 - (front_contacts2bn3p_x * t944 - (front_contacts2bm_z * t943 - (t739 * t942 - (t750 * t941 -
-      (t761 * t940 - (t768 * t939 + (t783 * t937 - t776 * t938))))))))))) - Real(2.7054786900152528e-11));
-  const Real t1192 = q0d1 * t48 - (state.y[3] * state.y[3] + (q0d3 * t50 - q0d2 * t49));
-  const Real t1201 = t50 * state.z[5] + (t48 * state.z[3] + t49 * state.z[4]);
-  const Real t1206 = t49 * state.z[5] + (t47 * state.z[3] - t50 * state.z[4]);
-  const Real t1211 = t48 * state.z[5] - (t50 * state.z[3] + t47 * state.z[4]);
-  const Real t1225 = Real(2.0) * t1206;
-  const Real t1228 = q0d1 * t1225;
-  const Real t1230 = Real(2.0) * t1211;
-  const Real t1232 = q0d2 * t1230;
-  const Real t1235 = q0d2 * t1206 - state.y[4] * t1230;
-  const Real t1236 = Real(2.0) * (t47 * state.z[5] - (t49 * state.z[3] - t48 * state.z[4]));
-  const Real t1238 = q0d3 * t1211 - state.y[5] * t1236;
-  const Real t1240 = q0d3 * t1206 + state.y[4] * t1236;
-  const Real t1241 = q0d3 * t1236;
-  const Real t1244 = state.y[3] * t1225 - q0d1 * t1201;
-  const Real t1246 = state.y[3] * t1230 + q0d2 * t1201;
-  const Real t1248 = state.y[3] * t1236 - q0d3 * t1201;
-  const Real t1249 = t1238 - t1244;
-  const Real t1250 = t1238 + t1244;
-  const Real t1251 = t51 * t1249;
-  const Real t1253 = Real(2.0) * t1249;
-  const Real t1262 = t1228 - t1232;
-  const Real t1268 = t53 * t1251;
-  const Real t1269 = model.rear_radius * t1251;
-  const Real t1270 = t52 * t53 * t1268;
-  const Real t1272 = t52 * rear_contactc_z * t1268;
-  const Real t1274 = t1240 + t1246;
-  const Real t1275 = t1240 - t1246;
-  const Real t1281 = s2 * state.z[7];
-  const Real t1282 = c2 * state.z[7];
-  const Real t1283 = model.r_front_y * t1281;
-  const Real t1292 = model.r_front_y * t1282;
-  const Real t1293 = Real(0.9510565162951535) * t1282;
-  const Real t1294 = Real(0.3090169943749474) * t1282;
-  const Real t1305 = Real(0.9510565162951535) * t1283;
-  const Real t1306 = Real(0.3090169943749474) * t1283;
-  const Real t1331 = q0r2_x * t1293 + (front_contactbd2p_x * t1274 + (q0r2_y * t1281 + (c2 * t1249 +
-      (front_contactbd2p_z * t1262 + q0r2_z * t1294))));
-  const Real t1332 = t54 * t1331;
-  const Real t1335 = t56 * t1332;
-  const Real t1336 = model.front_radius * t1332;
-  const Real t1339 = t55 * front_contactc_z * t1335;
-  const Real t1369 = Real(2.0) * (t58 * t1331) + model.front_radius * (t54 * (t55 * t56 * t1335));
-  const Real t1374 = q0r2_x * t1369;
-  const Real t1378 = front_contactbd2p_x * t1369 + (t1305 + t59 * t1293);
-  const Real t1425 = t1292 + (front_contactbx2p_x * state.z[5] + front_contactbx2p_z * state.z[3]);
-  const Real t1426 = s2 * state.z[8];
-  const Real t1428 = state.z[4] + c2 * state.z[8];
-  const Real t1433 = Real(0.9510565162951535) * t1426 - (state.z[3] + Real(0.3090169943749474) * state.z[7]);
-  const Real t1436 = Real(0.3090169943749474) * t1426 + (state.z[5] + Real(0.9510565162951535) * state.z[7]);
-  const Real t1447 = q0r2_x * t1433 + (q0r2_z * t1436 - q0r2_y * t1428);
-  const Real t1452 = q0r0_x * t1433 - (q0r0_z * t1436 + q0r0_y * t1428);
-  const Real t1454 = t1305 + (front_contactbx3_x * state.z[5] + front_contactbx2p_z * state.z[4]);
-  const Real t1456 = t1306 - (front_contactbx2p_x * state.z[4] - front_contactbx3_x * state.z[3]);
-  const Real t1457 = t55 * t1447;
-  const Real t1461 = t59 * t1447;
-  const Real t1463 = front_contactc_z * t1436 + front_contactbd2p_z * t1461;
-  const Real t1465 = front_contactc_z * t1428 + c2 * t1461;
-  const Real t1467 = front_contactc_z * t1433 + front_contactbd2p_x * t1461;
-  const Real t1475 = q0r1_x * t1433 - (q0r1_z * t1436 - q0r1_y * t1428);
-  const Real t1485 = state.z[4] + state.z[6];
-  const Real t1486 = model.rear_radius * state.z[4];
-  const Real t1489 = rear_contactc_z * state.z[5];
-  const Real t1495 = q0r2_x * state.z[3] - (q0r2_z * state.z[5] - q0r2_y * t1485);
-  const Real t1496 = rear_contactc_z * state.z[3];
-  const Real t1499 = q0r0_x * state.z[3] + (q0r0_z * state.z[5] + q0r0_y * t1485);
-  const Real t1500 = t52 * t1495;
-  const Real t1506 = model.rear_radius * state.z[3];
-  const Real t1508 = rear_contactc_z * t1485 + t84 * t1495;
-  const Real t1513 = q0r1_x * state.z[3] + (q0r1_z * state.z[5] - q0r1_y * t1485);
-  const Real t1530 = t1496 - t1506;
-  const Real t1532 = t1486 - t1508;
-  const Real t1534 = t1425 + t1467;
-  const Real t1536 = t1454 - t1465;
+  const Real t1112 = t1109 * t1111;
+  const Real t1128 = Real(1.0) / (t1109 * t1112 - (t1078 * t1097 - (t1038 * t1068 - (t991 * t1030 - (t898 *
+      t984 - (front_contacts2bn3p_x * t887 - (front_contacts2bm_z * t886 - (t682 * t885 - (t693 * t884 - (t704
+      * t883 - (t711 * t882 + (t726 * t880 - t719 * t881))))))))))) - Real(2.7054786900152528e-11));
+  const Real t1133 = t50 * state.z[5] + (t48 * state.z[3] + t49 * state.z[4]);
+  const Real t1138 = t49 * state.z[5] + (t47 * state.z[3] - t50 * state.z[4]);
+  const Real t1143 = t48 * state.z[5] - (t50 * state.z[3] + t47 * state.z[4]);
+  const Real t1148 = t47 * state.z[5] - (t49 * state.z[3] - t48 * state.z[4]);
+  const Real t1153 = Real(2.0) * state.y[3];
+  const Real t1155 = t51 * t53;
+  const Real t1159 = t52 * rear_contactc_z * t1155 - (t91 + t91);
+  const Real t1165 = c2 * Real(0.3090169943749474);
+  const Real t1171 = front_contactbx3_x * Real(0.9510565162951535);
+  const Real t1172 = front_contactbx3_x * Real(0.3090169943749474);
+  const Real t1190 = t66 * (t55 * front_contactc_z) - (t68 + t68);
+  const Real t1192 = t55 + t54 * (t66 * (t55 * t56));
+  const Real t1195 = t1143 * (q0d2 + q0d2);
+  const Real t1199 = q0d3 * t1143 - q0d2 * t1148;
+  const Real t1202 = t1148 * (q0d3 + q0d3);
+  const Real t1206 = t1143 * t1153 + q0d2 * t1133;
+  const Real t1208 = t1148 * t1153 - q0d3 * t1133;
+  const Real t1209 = t1138 * (q0d1 + q0d1);
+  const Real t1211 = q0d1 * t1133 - t1138 * t1153;
+  const Real t1213 = q0d1 * t1148 + q0d3 * t1138;
+  const Real t1214 = t1206 + t1213;
+  const Real t1215 = t1199 + t1211;
+  const Real t1217 = q0d1 * t1143 - q0d2 * t1138;
+  const Real t1218 = t1206 - t1213;
+  const Real t1219 = t1199 - t1211;
+  const Real t1220 = t1195 - t1209;
+  const Real t1223 = Real(2.0) * t86 + model.rear_radius * (t51 * (t52 * t53 * t1155));
+  const Real t1225 = model.rear_radius * state.z[3];
+  const Real t1233 = t1195 - t1202;
+  const Real t1236 = rear_contactc_z * state.z[3];
+  const Real t1239 = model.rear_radius * state.z[4];
+  const Real t1241 = rear_contactc_z * state.z[5];
+  const Real t1245 = state.z[4] + state.z[6];
+  const Real t1253 = q0r1_z * t1165 + (s2 * q0r1_y - Real(0.9510565162951535) * (c2 * q0r1_x));
+  const Real t1283 = state.z[7] * t1171 + (front_contactbx3_x * state.z[5] + front_contactbx2p_z *
+      state.z[4]);
+  const Real t1285 = front_contactbx3_y * state.z[7] + (front_contactbx2p_x * state.z[5] + front_contactbx2p_z
+      * state.z[3]);
+  const Real t1287 = state.z[7] * t1172 - (front_contactbx2p_x * state.z[4] - front_contactbx3_x *
+      state.z[3]);
+  const Real t1291 = front_contactbd2p_x * state.z[8] - (state.z[3] + Real(0.3090169943749474) * state.z[7]);
+  const Real t1293 = state.z[4] + c2 * state.z[8];
+  const Real t1296 = front_contactbd2p_z * state.z[8] + (state.z[5] + Real(0.9510565162951535) * state.z[7]);
+  const Real t1311 = t75 * (t84 * state.z[4] + q0r2_y * state.z[5]);
+  const Real t1316 = q0r2_y * t1245 + (q0r2_x * state.z[3] - q0r2_z * state.z[5]);
+  const Real t1338 = q0r2_z * t1296 - (q0r2_y * t1293 - q0r2_x * t1291);
+  const Real t1355 = rear_contactc_z * t1245 + t91 * t1316;
+  const Real t1368 = front_contactc_z * t1293 + t69 * t1338;
+  const Real t1370 = front_contactc_z * t1296 + t70 * t1338;
+  const Real t1372 = t68 * t1338;
+  const Real t1380 = front_contactc_z * t1291 + front_contactbd2p_x * t1372;
+  const Real t1381 = t1202 + t1209;
+  const Real t1387 = t75 * t1220;
+  const Real t1410 = t65 * state.z[7] + (front_contactbd2p_x * t1214 - (front_contactbd2p_z * t1220 - c2 *
+      t1215));
+  const Real t1425 = t1208 + t1217;
+  const Real t1426 = t1208 - t1217;
   const Real w2p_y = Real(0.3090169943749474) * state.z[5] - Real(0.9510565162951535) * state.z[3];
   const Real w2p_z = Real(0.3090169943749474) * state.z[3] + Real(0.9510565162951535) * state.z[5];
   const Real w2_z = state.z[7] + w2p_z;
@@ -2614,101 +2527,93 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real rf0_z = rf2p_z - (state.z[5] * ruh0 - h2c_z * ruw0);
   const Real tau_2_0 = input.u[0] - (rdn3_y + (w2p_y * rKx2 - (h2b_y * ra2o_y + (state.z[4] * rKy2 - h2b_x *
       ra2_y))));
-  const Real t1719 = t383 * tau_2_0 - (t373 * rQp3 - (model.r_steer_x * rdf2_x - (Real(0.9510565162951535) *
+  const Real t1608 = t334 * tau_2_0 - (t324 * rQp3 - (model.r_steer_x * rdf2_x - (Real(0.9510565162951535) *
       rdn3_y + (Real(0.3090169943749474) * rn2_y + (rdn1_x - (h2c_x * rfallW_y - (h2b_x * rfallW_x +
       (state.z[3] * rSu0_y - state.z[4] * rSu0_x))))))));
-  const Real t1736 = t424 * t1719 - (t403 * tau_2_0 - (t377 * rQp3 - (model.r_steer_z * rf2p_x +
+  const Real t1625 = t375 * t1608 - (t354 * tau_2_0 - (t328 * rQp3 - (model.r_steer_z * rf2p_x +
       (model.r_steer_x * rf2p_z + (rn2b_x - (rKy2 * z2_2 - (S2b_yz * zz_2 - (h2c_z * rfallW_x - (h2c_x *
       rfallW_z - (state.z[3] * rSu0_z + state.z[5] * rSu0_x))))))))));
-  const Real t1752 = t463 * t1736 - (t448 * t1719 - (t409 * tau_2_0 - (t380 * rQp3 + (model.r_steer_z * rdf2_x
+  const Real t1641 = t414 * t1625 - (t399 * t1608 - (t360 * tau_2_0 - (t331 * rQp3 + (model.r_steer_z * rdf2_x
       + (Real(0.9510565162951535) * rn2_y - (Real(0.3090169943749474) * rdn3_y - (rdn1_y + (h2c_z * rfallW_y -
       (h2b_x * rfallW_z - (state.z[4] * rSu0_z + state.z[5] * rSu0_y))))))))));
-  const Real t1764 = t495 * t1752 - (t485 * t1736 - (t453 * t1719 - (t414 * tau_2_0 - (q0r2_z * rf0_z -
+  const Real t1653 = t446 * t1641 - (t436 * t1625 - (t404 * t1608 - (t365 * tau_2_0 - (q0r2_z * rf0_z -
       (q0r2_x * rf0_x - q0r2_y * rf0_y))))) + Real(922.1400000000001);
-  const Real t1774 = t516 * t1764 - (t510 * t1752 - (t489 * t1736 - (t457 * t1719 - (t418 * tau_2_0 - (q0r1_z
+  const Real t1663 = t467 * t1653 - (t461 * t1641 - (t440 * t1625 - (t408 * t1608 - (t369 * tau_2_0 - (q0r1_z
       * rf0_z + (q0r1_x * rf0_x + q0r1_y * rf0_y))))));
-  const Real t1785 = t539 * (t531 * t1774 - (t528 * t1764 - (t513 * t1752 - (t492 * t1736 - (t460 * t1719 -
-      (t421 * tau_2_0 - (q0r0_z * rf0_z + (q0r0_x * rf0_x - q0r0_y * rf0_y))))))));
-  const Real t1786 = t530 * t1774;
-  const Real t1787 = t515 * t1764;
-  const Real t1788 = t494 * t1752;
-  const Real t1789 = t462 * t1736;
-  const Real t1790 = t423 * t1719;
-  const Real t1791 = model.c30 * tau_2_0;
-  const Real t1792 = Real(3.571428571428571) * rQp3;
-  const Real t1842 = model.rear_radius * (state.z[5] * (q0r2_x * t51 * t1270 + t53 * (q0r2_x * t1253 - t51 *
-      t1274)) + (state.z[3] * (t1249 + (t51 * t1192 * t1270 + t53 * (t1192 * t1253 - t51 * t1262))) +
-      state.z[4] * t1274)) - (t138 * t1790 - (t542 * t1789 - (t552 * t1788 - (t559 * t1787 + (t571 * t1785 -
-      t565 * t1786)))));
-  const Real t1861 = t999 * t1842 + (rear_contacts1bn0_z * t1790 - (t573 * t1789 - (t582 * t1788 - (t588 *
-      t1787 - (t594 * t1786 - (t601 * t1785 - (t1241 * t1532 + (t1235 * (t1496 + t1506) + (t1248 * t1530 -
-      (t1232 * t1486 + (t1228 * t1508 + (t1250 * t1489 - (t150 * t1249 * t1500 + (t52 * rear_contactc_y *
-      t1268 * t1495 + (t1269 * (t52 * t1513) - (t1272 * t1513 - state.z[6] * (rear_contactc_y *
-      t1249)))))))))))))))));
-  const Real t1885 = t1054 * t1861 - (t1010 * t1842 + (rear_contacts2bn0_z * t1790 + (t603 * t1789 - (t612 *
-      t1788 - (t618 * t1787 - (t625 * t1786 - (t631 * t1785 - (t1241 * t1530 - (t1235 * (t1486 + t1508) +
-      (t1248 * t1532 + (t1232 * t1496 + (t1228 * t1506 + (t1269 * (t52 * t1499) - (t1272 * t1499 - (t1275 *
-      t1489 - (t160 * t1249 * t1500 + (t52 * rear_contactc_x * t1268 * t1495 + state.z[6] * (rear_contactc_x *
-      t1249))))))))))))))))));
-  const Real t1910 = state.z[5] * (c2 * t1374 - (t59 * (q0r2_x * t1281 - c2 * t1274) - (q0r2_x * t1292 +
-      (front_contactbx3_x * t1274 + (t66 * t1249 + q0r2_y * t1378))))) - (t1100 * t1885 - (t1066 * t1861 -
-      (t1020 * t1842 - (t77 * t1791 - (t635 * t1790 - (t646 * t1789 - (t657 * t1788 - (t665 * t1787 - (t672 *
-      t1786 - (t679 * t1785 - (state.z[4] * (t66 * t1262 + (t59 * (q0r2_x * t1294 + front_contactbd2p_z *
-      t1274) + (front_contactbd2p_z * t1374 - (t1192 * t1378 - (q0r2_x * t1306 - front_contactbx2p_z *
-      t1274))))) - (state.z[7] * (c2 * (Real(0.9510565162951535) * (t59 * t1274 + t1374) + (model.r_front_y *
-      t1249 + Real(0.3090169943749474) * (t59 * t1262 + q0r2_z * t1369))) + (t74 * t1281 + (t71 * t1282 + s2 *
-      (model.r_front_y * (Real(0.3090169943749474) * t1262 + Real(0.9510565162951535) * t1274) - (t59 * t1249
-      - q0r2_y * t1369))))) + state.z[3] * (t59 * (c2 * t1262 - (t1192 * t1281 - (q0r2_y * t1294 -
-      front_contactbd2p_z * t1249))) + (t1369 * (c2 * t1192 + q0r2_y * front_contactbd2p_z) +
-      (front_contactbx2p_z * t1249 + (q0r2_y * t1306 + (t1192 * t1292 + front_contactbx3_x *
-      t1262)))))))))))))))));
-  const Real t1915 = q0r1_x * t1293 - (q0r1_y * t1281 + q0r1_z * t1294);
-  const Real t1957 = state.z[3] * (q0r0_z * t1292 - q0r0_y * t1306) - (t1461 * t1915 - (state.z[4] * (q0r0_z *
-      t1305 + q0r0_x * t1306) - (state.z[5] * (q0r0_x * t1292 + q0r0_y * t1305) - (state.z[7] *
-      (front_contacts1bf2_y * t1292 - q0r0_y * t1283) + (state.z[8] * (front_contacts1bn0_y * t1281 +
-      front_contacts1bn2_y * t1282) + (t1139 * t1910 + (t1113 * t1885 - (t1076 * t1861 - (t1030 * t1842 -
-      (front_contacts1bn3p_x * t1792 + (front_contacts1bm_z * t1791 - (t687 * t1790 - (t698 * t1789 - (t709 *
-      t1788 - (t716 * t1787 - (t723 * t1786 - (t731 * t1785 - (t1241 * t1536 + (t1235 * (t1425 - t1467) -
-      (t1248 * t1534 + (t1232 * t1454 + (t1228 * t1465 + (t1250 * t1463 - (t1275 * t1456 + (model.front_radius
-      * (front_contactbd0p_y * t1331 * t1457) + (t55 * front_contactc_y * t1335 * t1447 + (t1336 * (t55 *
-      t1475) - (t1339 * t1475 - (front_contactc_y * t1274 * t1433 + (front_contactc_y * t1262 * t1436 +
-      front_contactc_y * t1249 * t1428))))))))))))))))))))))))))))));
-  const Real t2010 = t1185 * (state.z[3] * (q0r1_z * t1292 + q0r1_y * t1306) + (t1461 * (q0r0_x * t1293 +
-      (q0r0_y * t1281 - q0r0_z * t1294)) + (state.z[4] * (q0r1_z * t1305 + q0r1_x * t1306) - (state.z[5] *
-      (q0r1_x * t1292 - q0r1_y * t1305) + (model.r_front_y * (state.z[7] * t1915) - (state.z[8] *
-      (front_contacts2bn0_y * t1281 - front_contacts2bn2_y * t1282) - (t1169 * t1957 - (t1154 * t1910 + (t1125
-      * t1885 - (t1087 * t1861 - (t1041 * t1842 - (front_contacts2bn3p_x * t1792 + (front_contacts2bm_z *
-      t1791 - (t739 * t1790 - (t750 * t1789 - (t761 * t1788 - (t768 * t1787 - (t776 * t1786 - (t783 * t1785 +
-      (t1241 * t1534 + (t1235 * (t1454 + t1465) + (t1248 * t1536 - (t1232 * t1467 - (t1228 * t1425 + (t1250 *
-      t1456 + (t1275 * t1463 + (t1336 * (t55 * t1452) - (t1339 * t1452 - (model.front_radius *
-      (front_contactbd0p_x * t1331 * t1457) + (t55 * front_contactc_x * t1335 * t1447 + (front_contactc_x *
-      t1274 * t1433 + (front_contactc_x * t1262 * t1436 + front_contactc_x * t1249 *
-      t1428))))))))))))))))))))))))))))))));
-  const Real t2012 = t1168 * t1957 + t1169 * t2010;
-  const Real t2016 = t1154 * t2010 + (t1138 * t1910 - t1139 * t2012);
-  const Real t2022 = t1125 * t2010 - (t1113 * t2012 + (t1099 * t1885 + t1100 * t2016));
-  const Real t2030 = t1087 * t2010 - (t1076 * t2012 + (t1066 * t2016 + (t1053 * t1861 + t1054 * t2022)));
-  const Real t2040 = t1041 * t2010 - (t1030 * t2012 + (t1020 * t2016 + (t1010 * t2022 + (t998 * t1842 + t999 *
-      t2030))));
-  const Real t2041 = Real(1.8087085566416913e-12) * t2040;
-  const Real t2048 = Real(7.806783314072456e-11) * t2030 - t999 * t2041;
-  const Real t2055 = t1054 * t2048 - (Real(8.816994788327498e-12) * t2022 - t1010 * t2041);
-  const Real t2062 = t1100 * t2055 - (t1066 * t2048 - (Real(3.988016169236579e-12) * t2016 - t1020 * t2041));
-  const Real t2069 = t1139 * t2062 - (t1113 * t2055 - (t1076 * t2048 - (Real(4.6476630875276904e-11) * t2012 -
-      t1030 * t2041)));
-  const Real t2082 = t1185 * (t1169 * t2069 - (t1154 * t2062 - (t1125 * t2055 - (t1087 * t2048 +
-      (Real(2.7054786900152528e-11) * t2010 + t1041 * t2041)))));
-  const Real t2084 = t1168 * t2069 - t1169 * t2082;
-  const Real t2088 = t1154 * t2082 - (t1138 * t2062 - t1139 * t2084);
-  const Real t2094 = t1125 * t2082 + (t1113 * t2084 - (t1099 * t2055 + t1100 * t2088));
-  const Real t2102 = t1087 * t2082 + (t1076 * t2084 - (t1066 * t2088 + (t1053 * t2048 + t1054 * t2094)));
-  lambda[0] = -(t1041 * t2082 + (t1030 * t2084 - (t1020 * t2088 + (t1010 * t2094 + (t999 * t2102 - (t2040 +
-      t998 * t2041))))));
-  lambda[1] = t2030 + t2102;
-  lambda[2] = t2022 + t2094;
-  lambda[3] = -(t2016 + t2088);
-  lambda[4] = t2012 - t2084;
-  lambda[5] = t2010 + t2082;
+  const Real t1674 = t490 * (t482 * t1663 - (t479 * t1653 - (t464 * t1641 - (t443 * t1625 - (t411 * t1608 -
+      (t372 * tau_2_0 - (q0r0_z * rf0_z + (q0r0_x * rf0_x - q0r0_y * rf0_y))))))));
+  const Real t1675 = t481 * t1663;
+  const Real t1676 = t466 * t1653;
+  const Real t1677 = t445 * t1641;
+  const Real t1678 = t413 * t1625;
+  const Real t1679 = t374 * t1608;
+  const Real t1680 = model.c29 * tau_2_0;
+  const Real t1681 = Real(3.571428571428571) * rQp3;
+  const Real t1734 = t1214 * (t1239 - t91 * state.z[5]) + (t1215 * (t1225 + t1215 * t1223) - (t95 * t1679 -
+      (t492 * t1678 - (t500 * t1677 - (t507 * t1676 - (t513 * t1675 - (state.z[3] * (t91 * t1220) + t519 *
+      t1674)))))));
+  const Real t1749 = t942 * t1734 + (rear_contacts1bn0_z * t1679 - (t521 * t1678 - (t530 * t1677 - (t536 *
+      t1676 - (t542 * t1675 - (t549 * t1674 + (t1225 * t1425 - (t1236 * t1426 - (t1233 * t1239 + (t1219 *
+      t1241 + (t1214 * (rear_contactc_y * state.z[3]) - (t1215 * (q0r1_y * t1223 * t1316 + (rear_contactc_y *
+      t1245 + t1159 * (q0r1_y * t1245 - (q0r1_x * state.z[3] + q0r1_z * state.z[5])))) - (t1355 * t1381 +
+      t1220 * (rear_contactc_y * state.z[5]))))))))))))));
+  const Real t1769 = t997 * t1749 - (t953 * t1734 + (rear_contacts2bn0_z * t1679 + (t551 * t1678 - (t560 *
+      t1677 - (t566 * t1676 - (t573 * t1675 - (t579 * t1674 - (t1218 * t1241 + (t1355 * t1425 - (t1239 * t1426
+      + (t1233 * t1236 + (t1214 * (rear_contactc_x * state.z[3]) - (t1215 * (q0r0_y * t1223 * t1316 +
+      (rear_contactc_x * t1245 + t1159 * (q0r0_y * t1245 + (q0r0_z * state.z[5] + q0r0_x * state.z[3])))) -
+      (t1225 * t1381 + t1220 * (rear_contactc_x * state.z[5])))))))))))))));
+  const Real t1779 = Real(0.9510565162951535) * t1311 - Real(0.3090169943749474) * t1387;
+  const Real t1799 = state.z[4] * (t73 * t1214) + (state.z[3] * (t73 * t1215 - t1387) + (state.z[7] * (t1779 -
+      (state.z[7] * (front_contactbd0p_z * t68 - model.r_front_y * t65) - (Real(2.0) * ((front_contactbx3_y -
+      s2 * t68) * t1215) + t1779))) + (t1043 * t1769 - (t1009 * t1749 - (t963 * t1734 - (t79 * t1680 - (t582 *
+      t1679 - (t591 * t1678 - (t600 * t1677 - (t608 * t1676 - (t615 * t1675 - (t622 * t1674 -
+      (model.front_radius * (t1410 * (t1192 * t1410)) + (state.z[5] * t1311 + (t1220 * (t76 * state.z[4]) +
+      t1215 * (t76 * state.z[5]))))))))))))))));
+  const Real t1824 = t1082 * t1799 - (t1056 * t1769 - (t1019 * t1749 - (t973 * t1734 - (front_contacts1bn3p_x
+      * t1681 + (front_contacts1bm_z * t1680 - (t630 * t1679 - (t641 * t1678 - (t652 * t1677 - (t659 * t1676 -
+      (t666 * t1675 - (t674 * t1674 + (t1218 * t1287 + (t1285 * t1425 + (t1380 * t1426 + (t1233 * t1283 -
+      (t1410 * (t132 * t1192 * t1338 + t1190 * (q0r1_z * t1296 - (q0r1_x * t1291 + q0r1_y * t1293))) +
+      (state.z[7] * (t1338 * (t68 * t1253) + (state.z[8] * (s2 * front_contacts1bn0_y + c2 *
+      front_contacts1bn2_y) - (state.z[7] * (front_contactbx3_x * q0r0_y - front_contactbx3_y *
+      front_contacts1bf2_y) - (state.z[3] * (front_contactbx3_y * q0r0_z - q0r0_y * t1172) - (state.z[5] *
+      (front_contactbx3_y * q0r0_x + q0r0_y * t1171) - state.z[4] * (q0r0_x * t1172 + q0r0_z * t1171)))))) -
+      (t1219 * t1370 - (t1214 * (front_contactc_y * t1291) + (t1215 * (front_contactc_y * t1293) - (t1368 *
+      t1381 + t1220 * (front_contactc_y * t1296))))))))))))))))))))));
+  const Real t1855 = t1128 * (t1112 * t1824 - (t1097 * t1799 - (t1068 * t1769 - (t1030 * t1749 - (t984 * t1734
+      - (front_contacts2bn3p_x * t1681 + (front_contacts2bm_z * t1680 - (t682 * t1679 - (t693 * t1678 - (t704
+      * t1677 - (t711 * t1676 - (t719 * t1675 - (t726 * t1674 - (t1218 * t1370 + (t1368 * t1425 - (t1283 *
+      t1426 - (t1233 * t1380 - (t1410 * (t170 * t1192 * t1338 - t1190 * (q0r0_x * t1291 - (q0r0_y * t1293 +
+      q0r0_z * t1296))) + (state.z[7] * ((q0r0_z * t1165 - (s2 * q0r0_y + c2 * t137)) * t1372 -
+      (model.r_front_y * (state.z[7] * t1253) - (state.z[5] * (front_contactbx3_y * q0r1_x - q0r1_y * t1171) -
+      (state.z[4] * (q0r1_x * t1172 + q0r1_z * t1171) + (state.z[8] * (s2 * front_contacts2bn0_y - c2 *
+      front_contacts2bn2_y) + state.z[3] * (front_contactbx3_y * q0r1_z + q0r1_y * t1172)))))) + (t1219 *
+      t1287 + (t1214 * (front_contactc_x * t1291) + (t1215 * (front_contactc_x * t1293) + (t1285 * t1381 -
+      t1220 * (front_contactc_x * t1296))))))))))))))))))))))));
+  const Real t1857 = t1111 * t1824 - t1112 * t1855;
+  const Real t1861 = t1097 * t1855 - (t1081 * t1799 - t1082 * t1857);
+  const Real t1867 = t1068 * t1855 + (t1056 * t1857 - (t1042 * t1769 + t1043 * t1861));
+  const Real t1875 = t1030 * t1855 + (t1019 * t1857 - (t1009 * t1861 + (t996 * t1749 + t997 * t1867)));
+  const Real t1885 = t984 * t1855 + (t973 * t1857 - (t963 * t1861 + (t953 * t1867 + (t941 * t1734 + t942 *
+      t1875))));
+  const Real t1886 = Real(1.8087085566416913e-12) * t1885;
+  const Real t1893 = Real(7.806783314072456e-11) * t1875 - t942 * t1886;
+  const Real t1900 = t997 * t1893 - (Real(8.816994788327498e-12) * t1867 - t953 * t1886);
+  const Real t1907 = t1043 * t1900 - (t1009 * t1893 - (Real(3.988016169236579e-12) * t1861 - t963 * t1886));
+  const Real t1914 = t1082 * t1907 - (t1056 * t1900 - (t1019 * t1893 + (Real(4.6476630875276904e-11) * t1857 +
+      t973 * t1886)));
+  const Real t1927 = t1128 * (t1112 * t1914 - (t1097 * t1907 - (t1068 * t1900 - (t1030 * t1893 +
+      (Real(2.7054786900152528e-11) * t1855 + t984 * t1886)))));
+  const Real t1929 = t1111 * t1914 - t1112 * t1927;
+  const Real t1933 = t1097 * t1927 - (t1081 * t1907 - t1082 * t1929);
+  const Real t1939 = t1068 * t1927 + (t1056 * t1929 - (t1042 * t1900 + t1043 * t1933));
+  const Real t1947 = t1030 * t1927 + (t1019 * t1929 - (t1009 * t1933 + (t996 * t1893 + t997 * t1939)));
+  lambda[0] = -(t984 * t1927 + (t973 * t1929 - (t963 * t1933 + (t953 * t1939 + (t942 * t1947 - (t1885 + t941 *
+      t1886))))));
+  lambda[1] = t1875 + t1947;
+  lambda[2] = t1867 + t1939;
+  lambda[3] = t1861 + t1933;
+  lambda[4] = -(t1857 + t1929);
+  lambda[5] = t1855 + t1927;
 }
 
 // `input` may be a function that gives the Input at the state of a stage.

@@ -10,7 +10,7 @@
 // - 2 degrees of freedom: 5 coordinates of the tree, 3 of 3 constraints are independent
 // - independent: left, right; the others (floor_x, floor_y, floor_angle) in their velocities, their positions
 //   are carried along. Proven: what is solved for these velocities is regular everywhere in the declared
-//   ranges, at the default value of radius, track, its determinant 0.72 or more of that at the start
+//   ranges, at the default value of radius, track, its determinant 0.73 or more of that at the start
 //
 // Assumptions
 // - bodies are rigid; joints are ideal and without limits
@@ -149,10 +149,11 @@ struct Model {
   Real mr_x;
   Real c6;
   Real c7;
+  Real c8;
   Real S2b_zz;
-  Real c9;
+  Real c10;
   Real expression;
-  Real c11;
+  Real c12;
 };
 
 // Names in order, closed by a null pointer.
@@ -197,7 +198,7 @@ template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[2][2]) noexcept;
 
 /// Inertia terms k_bar: Coriolis, centrifugal and those of prescribed motion; no gravity.
-/// 29 operations (21 mul, 8 add and sub, 0 div), 2 sin and cos.
+/// 23 operations (16 mul, 7 add and sub, 0 div), 2 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[2]) noexcept;
 
@@ -209,14 +210,14 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
     noexcept;
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
-/// 52 operations (32 mul, 18 add and sub, 2 div), 2 sin and cos.
+/// 44 operations (25 mul, 17 add and sub, 2 div), 2 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[2]) noexcept;
 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
-/// 49 operations (31 mul, 18 add and sub, 0 div), 2 sin and cos.
+/// 42 operations (26 mul, 16 add and sub, 0 div), 2 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[2], Real
     (&tau)[2]) noexcept;
@@ -246,14 +247,14 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
 
 /// Multipliers lambda of M zdot = k_bar - q_bar - G^T lambda over all coordinates of the tree; the force of the
 /// constraints is -G^T lambda. N; N m for rows without a length.
-/// 85 operations (50 mul, 33 add and sub, 2 div), 2 sin and cos.
+/// 84 operations (49 mul, 33 add and sub, 2 div), 2 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void constraint_forces(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&lambda)[3]) noexcept;
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 343 operations. For inputs sampled at the stages include differential_drive_kernels.hpp and pass a
+/// 311 operations. For inputs sampled at the stages include differential_drive_kernels.hpp and pass a
 /// function of the state instead of `input`.
 template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;

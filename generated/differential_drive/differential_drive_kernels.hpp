@@ -197,16 +197,17 @@ Model<Real>::Model(const Parameters& parameters) noexcept {
   const Real S2b_zz_2 = left_S_yy + S3c_xx;
   S2b_zz = Real(0.00125) + (t8 + (Real(0.125) + (Real(0.00125) + (Real(0.07500000000000001) + (S_zz +
       S_zz)))));
-  c11 = Real(1.0) / (expression * Real(2.0));
-  c1 = parameters.radius * c11;
+  c12 = Real(1.0) / (expression * Real(2.0));
+  c1 = parameters.radius * c12;
   c4 = c1 * (S2b_zz_2 * c1);
   c6 = c1 * (S2b_zz * c1);
   const Real t37 = expression * Real(5.0);
-  c9 = t37 * t37;
+  c10 = t37 * t37;
   c0 = Real(0.5) * parameters.radius;
   c2 = mr_x * c1;
   c3 = c4 + Real(0.0025);
   c7 = c6 + Real(0.0025);
+  c8 = c0 * c2;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -252,18 +253,15 @@ template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[2]) noexcept {
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
-  const Real t4 = c2 * model.c0;
-  const Real t5 = s2 * model.c0;
-  const Real t8 = state.z[0] + state.z[1];
-  const Real t13 = (state.z[0] - state.z[1]) * model.c1;
-  const Real t18 = t5 * t8 * (s2 * t13) + t4 * t8 * (c2 * t13);
-  const Real zw_2 = t13 * t13;
+  const Real t8 = (state.z[0] - state.z[1]) * model.c1;
+  const Real t11 = (state.z[0] + state.z[1]) * t8 * model.c0;
+  const Real zw_2 = t8 * t8;
   const Real kdf2_x = c2 * zw_2 * model.mr_x;
   const Real kdf2_y = model.mr_x * (s2 * zw_2);
-  const Real t34 = t4 * (kdf2_x - s2 * t18 * Real(9.0)) + t5 * (kdf2_y + c2 * t18 * Real(9.0));
-  const Real t36 = t18 * model.c2;
-  k[0] = t34 - t36;
-  k[1] = t34 + t36;
+  const Real t28 = model.c0 * (c2 * (kdf2_x - s2 * t11 * Real(9.0)) + s2 * (kdf2_y + c2 * t11 * Real(9.0)));
+  const Real t30 = t11 * model.c2;
+  k[0] = t28 - t30;
+  k[1] = t28 + t30;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -279,25 +277,28 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   detail::sine_cosine(state.y[2], s2, c2);
   const Real t4 = c2 * model.c0;
   const Real t5 = s2 * model.c0;
-  const Real t8 = state.z[0] + state.z[1];
-  const Real t13 = (state.z[0] - state.z[1]) * model.c1;
-  const Real t18 = t5 * t8 * (s2 * t13) + t4 * t8 * (c2 * t13);
+  const Real t11 = (state.z[0] - state.z[1]) * model.c1;
+  const Real t12 = (state.z[0] + state.z[1]) * t11;
   const Real h2b_x = c2 * model.mr_x;
   const Real h2b_y = s2 * model.mr_x;
-  const Real t33 = t4 * (t4 * Real(9.0) - model.c1 * h2b_y) + t5 * (t5 * Real(9.0) + model.c1 * h2b_x);
-  const Real t35 = t33 - model.c6;
-  const Real t37 = t33 + model.c7;
-  const Real t39 = Real(1.0) / t37;
-  const Real t40 = t35 * t39;
-  const Real rdf0t_z = s2 * t18 * Real(9.0);
-  const Real rdf1t_z = c2 * t18 * Real(9.0);
-  const Real zw_2 = t13 * t13;
-  const Real t54 = t4 * (rdf0t_z - h2b_x * zw_2) - t5 * (rdf1t_z + h2b_y * zw_2);
-  const Real t56 = t18 * model.c2;
-  const Real t58 = t54 - (input.u[1] + t56);
-  const Real t63 = (t54 - (input.u[0] - (t56 - t40 * t58))) / (t37 - t35 * t40);
-  zdot[0] = -t63;
-  zdot[1] = -(t39 * t58 - t40 * t63);
+  const Real t17 = t4 * Real(9.0);
+  const Real t19 = t5 * Real(9.0);
+  const Real t25 = t4 * (t17 - model.c1 * h2b_y) + t5 * (t19 + model.c1 * h2b_x);
+  const Real t27 = t25 - model.c6;
+  const Real t29 = t25 + model.c7;
+  const Real t31 = Real(1.0) / t29;
+  const Real t32 = t27 * t31;
+  const Real rdf0t_z = t12 * t19;
+  const Real rdf1t_z = t12 * t17;
+  const Real zw_2 = t11 * t11;
+  const Real rf1_z = rdf1t_z + h2b_y * zw_2;
+  const Real rf0_z = rdf0t_z - h2b_x * zw_2;
+  const Real t46 = t4 * rf0_z - t5 * rf1_z;
+  const Real t48 = t12 * model.c8;
+  const Real t50 = t48 + (input.u[1] - t46);
+  const Real t55 = (t32 * t50 + (t48 - (input.u[0] - t46))) / (t29 - t27 * t32);
+  zdot[0] = -t55;
+  zdot[1] = t31 * t50 + t32 * t55;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -307,28 +308,25 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   detail::sine_cosine(state.y[2], s2, c2);
   const Real t4 = c2 * model.c0;
   const Real t5 = s2 * model.c0;
-  const Real t8 = state.z[0] + state.z[1];
-  const Real t13 = (state.z[0] - state.z[1]) * model.c1;
-  const Real t18 = t5 * t8 * (s2 * t13) + t4 * t8 * (c2 * t13);
-  const Real t23 = zdot[0] + zdot[1];
-  const Real t25 = s2 * t18 + t4 * t23;
-  const Real t27 = c2 * t18 - t5 * t23;
-  const Real t29 = model.c1 * (zdot[0] - zdot[1]);
+  const Real t11 = (state.z[0] - state.z[1]) * model.c1;
+  const Real t13 = model.c0 * ((state.z[0] + state.z[1]) * t11);
+  const Real t18 = zdot[0] + zdot[1];
+  const Real t24 = model.c1 * (zdot[0] - zdot[1]);
   const Real h2b_x = c2 * model.mr_x;
   const Real h2b_y = s2 * model.mr_x;
-  const Real adf0t_z = t25 * Real(9.0);
-  const Real adf1t_z = t27 * Real(9.0);
-  const Real zw_2 = t13 * t13;
-  const Real adn2_z = t29 * model.S2b_zz;
+  const Real adf0t_z = (s2 * t13 + t4 * t18) * Real(9.0);
+  const Real adf1t_z = (c2 * t13 - t5 * t18) * Real(9.0);
+  const Real zw_2 = t11 * t11;
+  const Real adn2_z = t24 * model.S2b_zz;
   const Real adn3_z = zdot[0] * Real(0.0025);
   const Real adn4_z = zdot[1] * Real(0.0025);
-  const Real af1_z = t29 * h2b_x + (adf1t_z + h2b_y * zw_2);
-  const Real af0_z = t29 * h2b_y + (adf0t_z - h2b_x * zw_2);
-  const Real aQ2_0 = t27 * h2b_x + (t25 * h2b_y + adn2_z);
-  const Real t56 = t4 * af0_z - t5 * af1_z;
-  const Real t57 = model.c1 * aQ2_0;
-  tau[0] = t56 + (adn3_z + t57);
-  tau[1] = t56 + (adn4_z - t57);
+  const Real af1_z = h2b_y * zw_2 + (adf1t_z + t24 * h2b_x);
+  const Real af0_z = h2b_x * zw_2 - (adf0t_z + t24 * h2b_y);
+  const Real aQ2_0 = adn2_z + t13 * model.mr_x;
+  const Real t49 = t4 * af0_z + t5 * af1_z;
+  const Real t50 = model.c1 * aQ2_0;
+  tau[0] = t50 + (adn3_z - t49);
+  tau[1] = -(t50 - (adn4_z - t49));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -352,7 +350,7 @@ Real potential_energy(const Model<Real>&, const State<Real>&) noexcept {
 template <class Real> JOURDAIN_FUNCTION
 void close_loops(const Model<Real>& model, State<Real>& state) noexcept {
   State<Real> closed = state;
-  closed.regularity = model.c9;
+  closed.regularity = model.c10;
   closed.opening = Real(0.0);
   state = closed;
 }
@@ -378,40 +376,42 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t10 = left_wheelx3_x * model.c1;
   const Real t13 = state.z[0] + state.z[1];
   const Real t17 = model.c1 * (state.z[0] - state.z[1]);
-  const Real t22 = t10 * t13 * (s2 * t17) + t9 * t13 * (c2 * t17);
-  const Real t23 = s2 * t22;
-  const Real t24 = c2 * t22;
+  const Real t21 = t17 * (c2 * (t9 * t13) + s2 * (t10 * t13));
+  const Real t22 = s2 * t21;
+  const Real t23 = c2 * t21;
   const Real h2b_x = c2 * model.mr_x;
   const Real h2b_y = s2 * model.mr_x;
-  const Real t37 = t9 * (t9 * Real(9.0) - model.c1 * h2b_y) + t10 * (t10 * Real(9.0) + model.c1 * h2b_x);
-  const Real t39 = t37 - model.c6;
-  const Real t41 = t37 + model.c7;
-  const Real t43 = Real(1.0) / t41;
-  const Real t44 = t39 * t43;
-  const Real rdf0t_z = t23 * Real(9.0);
-  const Real rdf1t_z = t24 * Real(9.0);
+  const Real t36 = t9 * (t9 * Real(9.0) - model.c1 * h2b_y) + t10 * (t10 * Real(9.0) + model.c1 * h2b_x);
+  const Real t38 = t36 - model.c6;
+  const Real t40 = t36 + model.c7;
+  const Real t42 = Real(1.0) / t40;
+  const Real t43 = t38 * t42;
+  const Real rdf0t_z = t22 * Real(9.0);
+  const Real rdf1t_z = t23 * Real(9.0);
   const Real zw_2 = t17 * t17;
-  const Real t50 = h2b_x * zw_2;
-  const Real t51 = h2b_y * zw_2;
-  const Real rQ2_0 = t22 * model.mr_x;
-  const Real t59 = t9 * (rdf0t_z - t50) - t10 * (rdf1t_z + t51);
-  const Real t60 = model.c1 * rQ2_0;
-  const Real t62 = t59 - (input.u[1] + t60);
-  const Real t67 = (t59 - (input.u[0] - (t60 - t44 * t62))) / (t41 - t39 * t44);
-  const Real t70 = t43 * t62 - t44 * t67;
-  const Real t71 = t67 + t70;
-  const Real t77 = model.c1 * (t67 - t70);
-  const Real rdf0t_z_2 = Real(9.0) * (t23 - t9 * t71);
-  const Real rdf1t_z_2 = Real(9.0) * (t24 + t10 * t71);
-  const Real rdn2_z = t77 * model.S2b_zz;
-  const Real rf1_z = rdf1t_z_2 + (t51 - h2b_x * t77);
-  const Real rf0_z = rdf0t_z_2 - (t50 + h2b_y * t77);
-  const Real t95 = left_wheelx3_y * rf0_z - left_wheelx3_x * rf1_z;
-  const Real t96 = rQ2_0 - rdn2_z;
-  lambda[0] = ((left_wheelx3_x + left_wheelx3_x) * rf0_z + (left_wheelx3_y + left_wheelx3_y) * rf1_z) *
-      model.c11;
-  lambda[1] = -(model.c11 * (t95 + t96));
-  lambda[2] = -(model.c11 * (t95 - t96));
+  const Real t49 = h2b_x * zw_2;
+  const Real t50 = h2b_y * zw_2;
+  const Real rf1_z = rdf1t_z + t50;
+  const Real rf0_z = rdf0t_z - t49;
+  const Real t53 = t21 * model.mr_x;
+  const Real t58 = t9 * rf0_z - t10 * rf1_z;
+  const Real t59 = model.c1 * t53;
+  const Real t61 = t59 + (input.u[1] - t58);
+  const Real t66 = (t43 * t61 + (t59 - (input.u[0] - t58))) / (t40 - t38 * t43);
+  const Real t69 = t42 * t61 + t43 * t66;
+  const Real t70 = t66 - t69;
+  const Real t76 = model.c1 * (t66 + t69);
+  const Real rdf0t_z_2 = Real(9.0) * (t22 - t9 * t70);
+  const Real rdf1t_z_2 = Real(9.0) * (t23 + t10 * t70);
+  const Real rdn2_z = t76 * model.S2b_zz;
+  const Real rf1_z_2 = h2b_x * t76 - (t50 + rdf1t_z_2);
+  const Real rf0_z_2 = h2b_y * t76 + (t49 - rdf0t_z_2);
+  const Real t94 = left_wheelx3_y * rf0_z_2 - left_wheelx3_x * rf1_z_2;
+  const Real t95 = t53 - rdn2_z;
+  lambda[0] = -(((left_wheelx3_x + left_wheelx3_x) * rf0_z_2 + (left_wheelx3_y + left_wheelx3_y) * rf1_z_2) *
+      model.c12);
+  lambda[1] = model.c12 * (t94 - t95);
+  lambda[2] = model.c12 * (t94 + t95);
 }
 
 // `input` may be a function that gives the Input at the state of a stage.

@@ -10,7 +10,7 @@
 // Loops
 // - 1 degree of freedom: 4 coordinates of the tree, 3 of 3 constraints are independent
 // - independent: lower; the others in closed form, on the branch of the initial state. Proven: it exists
-//   everywhere in the declared ranges, at the default value of steering, rate; every discriminant is 0.4 or
+//   everywhere in the declared ranges, at the default value of steering, rate; every discriminant is 0.41 or
 //   more (the square of the sine of the angle from a dead position)
 //
 // Assumptions

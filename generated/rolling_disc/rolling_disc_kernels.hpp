@@ -72,21 +72,18 @@ Model<Real>::Model(const Parameters& parameters) noexcept {
   const Real disc_S_yy = disc_S_xx - S0b_zz;
   kdS00 = disc_S_xx + disc_S_yy;
   q_2 = mass * Real(9.81);
-  const Real disc_S_yy_2 = t9 + (t9 - disc_S_xx);
-  const Real S0b_zz_3 = disc_S_xx + disc_S_yy_2;
-  c6 = Real(1.0) / S0b_zz_3;
-  c7 = Real(1.0) / Jy0;
-  c13 = Real(1.0) / mass;
-  c8 = c13 + Real(4.9999999999999995e-11);
-  c9 = c13 + Real(1.5000000000000002e-10);
-  c10 = c13 + Real(2.5e-10);
-  rdS00 = disc_S_xx - disc_S_yy_2;
-  c12 = q_2 * c13;
   S0b_zz_2 = disc_S_xx - disc_S_yy;
-  c15 = Real(0.5) * mass;
-  c16 = radius * Real(0.5);
-  c17 = Real(1.0) / S0b_zz;
-  c18 = c6 * rdS00;
+  c6 = Real(1.0) / S0b_zz_2;
+  c7 = Real(1.0) / Jy0;
+  c12 = Real(1.0) / mass;
+  c8 = c12 + Real(4.9999999999999995e-11);
+  c9 = c12 + Real(1.5000000000000002e-10);
+  c10 = c12 + Real(2.5e-10);
+  c11 = q_2 * c12;
+  c14 = Real(0.5) * mass;
+  c15 = radius * Real(0.5);
+  c16 = Real(1.0) / S0b_zz;
+  c17 = kdS00 * c6;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -189,15 +186,11 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t20 = q0r2_y + q0r2_y;
   const Real t21 = Real(1.0) / groundup;
   const Real t22 = Real(0.5) * t21;
-  const Real t24 = t22 * model.radius;
-  const Real t25 = t20 * t24;
-  const Real t27 = q0d1 * t25;
-  const Real t30 = q0d3 * t25;
-  const Real t32 = Real(2.0) * (state.y[5] * t25);
-  const Real t34 = t16 * t32;
-  const Real t35 = Real(2.0) * (state.y[3] * t25);
-  const Real t39 = t16 * t35 - (t18 * t32 + (t17 * t27 - t19 * t30));
-  const Real t42 = t34 + (t34 - state.y[6] * t27);
+  const Real q0r2_x = Real(2.0) * (q0d3 * t17 - state.y[5] * state.y[3]);
+  const Real t34 = t20 * t22;
+  const Real t36 = t34 * model.radius;
+  const Real t37 = (q0d1 * t17 - (state.y[3] * state.y[3] + (q0d3 * t19 - state.y[5] * state.y[5]))) * t36;
+  const Real t38 = q0r2_x * t36;
   const Real q0d2 = Real(2.0) * state.y[5];
   const Real q011 = state.y[4] * q0d1;
   const Real q022 = state.y[5] * q0d2;
@@ -207,113 +200,80 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real q002 = state.y[3] * q0d2;
   const Real q003 = q0d3 * state.y[3];
   const Real q0r1_x = q012 + q003;
-  const Real t52 = Real(1.0) - q011;
-  const Real q0r1_y = q033 - t52;
+  const Real t48 = Real(1.0) - q011;
+  const Real q0r1_y = q033 - t48;
   const Real q0r1_z = q023 - q001;
-  const Real q0r2_x = q013 - q002;
-  const Real q0r2_z = q022 - t52;
-  const Real t57 = model.radius * q0r1_y;
-  const Real groundc_y = t25 * q0r1_y;
+  const Real q0r2_z = q022 - t48;
+  const Real t52 = model.radius * q0r1_y;
+  const Real groundc_y = t34 * t52;
   const Real groundc_z = model.radius * (t12 / groundup);
   const Real grounds1bn0_x = q0r1_x * groundc_z + q0r2_x * groundc_y;
-  const Real grounds1bn0_y = t21 * t57;
+  const Real grounds1bn0_y = t21 * t52;
   const Real grounds1bn0_z = q0r1_z * groundc_z - q0r2_z * groundc_y;
   const Real q0r0_x = q022 - (Real(1.0) - q033);
   const Real q0r0_y = q012 - q003;
   const Real q0r0_z = q013 + q002;
-  const Real t72 = model.radius * q0r0_y;
-  const Real groundc_x = t25 * q0r0_y;
+  const Real t67 = model.radius * q0r0_y;
+  const Real groundc_x = t34 * t67;
   const Real grounds2bn0_x = groundc_z * q0r0_x + q0r2_x * groundc_x;
-  const Real grounds2bn0_y = t21 * t72;
+  const Real grounds2bn0_y = t21 * t67;
   const Real grounds2bn0_z = groundc_z * q0r0_z + q0r2_z * groundc_x;
-  const Real t87 = grounds1bn0_x * model.c6;
-  const Real t88 = grounds1bn0_z * model.c6;
-  const Real t91 = t39 * t87 + t42 * t88;
-  const Real t97 = grounds2bn0_x * model.c6;
-  const Real t98 = grounds2bn0_y * model.c7;
-  const Real t99 = grounds2bn0_z * model.c6;
-  const Real t102 = t39 * t97 - t42 * t99;
-  const Real t113 = Real(1.0) / (model.c6 * (t39 * t39 + t42 * t42) + model.c8);
-  const Real t114 = t91 * t113;
-  const Real t121 = t102 * t113;
-  const Real t125 = t91 * t121 + (grounds1bn0_z * t99 - (grounds1bn0_x * t97 + grounds1bn0_y * t98));
-  const Real t127 = Real(1.0) / (t91 * t114 - (grounds1bn0_z * t88 + (grounds1bn0_y * grounds1bn0_y * model.c7
-      + (grounds1bn0_x * t87 + model.c9))));
-  const Real t128 = t125 * t127;
-  const Real t136 = Real(1.0) / (t125 * t128 - (t102 * t121 - (grounds2bn0_z * t99 + (grounds2bn0_y * t98 +
-      (grounds2bn0_x * t97 + model.c10)))));
-  const Real t141 = t19 * state.z[5] + (t17 * state.z[3] + t18 * state.z[4]);
-  const Real t146 = t18 * state.z[5] + (t16 * state.z[3] - t19 * state.z[4]);
-  const Real t151 = t17 * state.z[5] - (t19 * state.z[3] + t16 * state.z[4]);
-  const Real t156 = t16 * state.z[5] - (t18 * state.z[3] - t17 * state.z[4]);
-  const Real t161 = Real(2.0) * t146;
-  const Real t162 = q0d2 * t146;
-  const Real t166 = q0d1 * t161;
-  const Real t167 = Real(2.0) * t156;
-  const Real t169 = q0d3 * t167;
-  const Real t171 = q0d3 * t146 + state.y[4] * t167;
-  const Real t174 = state.y[5] * t167 - q0d3 * t151;
-  const Real t176 = Real(2.0) * t151;
-  const Real t177 = q0d2 * t151;
-  const Real t179 = state.y[3] * t161 - q0d1 * t141;
-  const Real t180 = q0d2 * t141;
-  const Real t182 = state.y[3] * t167 - q0d3 * t141;
-  const Real t183 = t174 + t179;
-  const Real t185 = t20 * t183;
-  const Real t190 = t22 * t185;
-  const Real t191 = model.radius * t185;
-  const Real t194 = t21 * groundc_z * t190;
-  const Real t196 = groundc_x * state.z[5];
-  const Real t199 = groundc_z * state.z[5];
-  const Real t204 = groundc_x * state.z[3];
-  const Real t207 = q0r2_x * state.z[3] - (q0r2_z * state.z[5] - q0r2_y * state.z[4]);
-  const Real t210 = q0r0_x * state.z[3] - (q0r0_z * state.z[5] + q0r0_y * state.z[4]);
-  const Real t211 = groundc_z * state.z[3];
-  const Real t212 = t21 * t207;
-  const Real t216 = groundc_z * state.z[4] - t25 * t207;
-  const Real t217 = groundc_y * state.z[5];
-  const Real t221 = groundc_y * state.z[3];
-  const Real t224 = q0r1_x * state.z[3] + (q0r1_z * state.z[5] - q0r1_y * state.z[4]);
-  const Real t233 = t196 - t211;
-  const Real t235 = t199 + t204;
-  const Real t264 = t167 * (t25 * t151);
-  const Real t270 = t141 * (t25 * t161);
+  const Real t82 = grounds1bn0_x * model.c6;
+  const Real t83 = grounds1bn0_z * model.c6;
+  const Real t86 = t37 * t82 + t38 * t83;
+  const Real t92 = grounds2bn0_x * model.c6;
+  const Real t93 = grounds2bn0_y * model.c7;
+  const Real t94 = grounds2bn0_z * model.c6;
+  const Real t97 = t37 * t92 - t38 * t94;
+  const Real t108 = Real(1.0) / (model.c6 * (t37 * t37 + t38 * t38) + model.c8);
+  const Real t109 = t86 * t108;
+  const Real t116 = t97 * t108;
+  const Real t120 = t86 * t116 + (grounds1bn0_z * t94 - (grounds1bn0_x * t92 + grounds1bn0_y * t93));
+  const Real t122 = Real(1.0) / (t86 * t109 - (grounds1bn0_z * t83 + (grounds1bn0_x * t82 + grounds1bn0_y *
+      grounds1bn0_y * model.c7)) - model.c9);
+  const Real t123 = t120 * t122;
+  const Real t131 = Real(1.0) / (t120 * t123 - (t97 * t116 - (grounds2bn0_z * t94 + (grounds2bn0_x * t92 +
+      grounds2bn0_y * t93))) + model.c10);
+  const Real t136 = t19 * state.z[5] + (t17 * state.z[3] + t18 * state.z[4]);
+  const Real t141 = t18 * state.z[5] + (t16 * state.z[3] - t19 * state.z[4]);
+  const Real t146 = t17 * state.z[5] - (t19 * state.z[3] + t16 * state.z[4]);
+  const Real t151 = t16 * state.z[5] - (t18 * state.z[3] - t17 * state.z[4]);
+  const Real t155 = Real(2.0) * state.y[3];
+  const Real t169 = t141 * (q0d1 + q0d1);
+  const Real t196 = t141 * t155 - q0d1 * t136 + (q0d2 * t151 - q0d3 * t146);
+  const Real t202 = q0r2_x * state.z[3] - (q0r2_z * state.z[5] - q0r2_y * state.z[4]);
+  const Real t211 = (t21 + t20 * (t34 * (t21 * t22))) * t196;
+  const Real t214 = (t36 + t36 + t34 * (t21 * groundc_z)) * t196;
   const Real rww00 = state.z[4] * state.z[5];
   const Real rww02 = state.z[3] * state.z[4];
-  const Real rdn0_x = rww00 * model.rdS00;
-  const Real rdn0_z = rww02 * model.rdS00;
-  const Real t293 = model.c6 * rdn0_x;
-  const Real t294 = model.c6 * rdn0_z;
-  const Real t314 = t42 * t294 - (t39 * t293 + (Real(2.0) * (t183 * (t24 * t183)) + (t191 * (t21 * t22 * t190)
-      - (t270 + (t270 + (t264 + (t264 + (Real(0.5) * (t141 * (t35 * state.z[3] + (t32 * state.z[5] + t30 *
-      state.z[4])) + (t146 * (t27 * state.z[3] - (t32 * state.z[4] - t30 * state.z[5])) + (t156 * (t35 *
-      state.z[4] - (t30 * state.z[3] - t27 * state.z[5])) + t151 * (t35 * state.z[5] - (t32 * state.z[3] + t27
-      * state.z[4]))))) + model.c12))))))));
-  const Real t333 = t221 * (t171 + t180) + (t211 * (t162 + t182) + (t114 * t314 - (grounds1bn0_z * t294 -
-      (grounds1bn0_x * t293 + (t176 * (state.y[5] * t217 + (state.y[3] * t221 - state.y[4] * t211)) - (t166 *
-      (t216 + t217) - (t177 * t217 - (t169 * t216 - ((t174 - t179) * t199 + (t57 * t183 * t212 + (t21 *
-      groundc_y * t190 * t207 + (t191 * (t21 * t224) + (state.z[4] * (groundc_y * t183) + t194 *
-      t224)))))))))))));
-  const Real t355 = t136 * (t216 * (t162 - t182) + (t128 * t333 - (t121 * t314 + (grounds2bn0_z * t294 +
-      (grounds2bn0_x * t293 + (t176 * (state.y[5] * t233 + (state.y[3] * t235 + state.y[4] * t216)) - (t166 *
-      t196 - (t177 * t233 + (t169 * t211 - (t171 * (t199 - t204) - (t180 * t235 + (t191 * (t21 * t210) + (t194
-      * t210 + (t72 * t183 * t212 + (state.z[4] * (groundc_x * t183) + t21 * groundc_x * t190 *
-      t207)))))))))))))));
-  const Real t357 = t127 * t333 - t128 * t355;
-  const Real t361 = t121 * t355 - (t113 * t314 - t114 * t357);
-  const Real t363 = t361 * Real(4.9999999999999995e-11);
-  const Real t369 = t357 * Real(1.5000000000000002e-10) + t114 * t363;
-  const Real t376 = t136 * (t128 * t369 - (t355 * Real(2.5e-10) + t121 * t363));
-  const Real t378 = t127 * t369 - t128 * t376;
-  const Real t383 = t121 * t376 + (t114 * t378 - (t361 + t113 * t363));
-  const Real t384 = t357 - t378;
-  const Real t385 = t355 - t376;
-  zdot[0] = t384 * model.c13;
-  zdot[1] = t385 * model.c13;
-  zdot[2] = (t383 - model.q_2) * model.c13;
-  zdot[3] = model.c6 * (grounds2bn0_x * t385 + (grounds1bn0_x * t384 + (rdn0_x + t39 * t383)));
-  zdot[4] = model.c7 * (grounds1bn0_y * t384 + grounds2bn0_y * t385);
-  zdot[5] = -(model.c6 * (grounds2bn0_z * t385 - (grounds1bn0_z * t384 - (rdn0_z - t42 * t383))));
+  const Real rdn0_x = rww00 * model.kdS00;
+  const Real rdn0_z = rww02 * model.kdS00;
+  const Real t228 = model.c6 * rdn0_x;
+  const Real t229 = model.c6 * rdn0_z;
+  const Real t241 = t38 * t229 - (t37 * t228 - (model.radius * (t196 * t211) - (state.z[3] * (t36 * (t169 -
+      t146 * (q0d2 + q0d2))) + (t146 * t155 + (q0d1 * t151 + q0d3 * t141 + q0d2 * t136)) * (t36 *
+      state.z[5]))) + model.c11);
+  const Real t246 = t109 * t241 - (grounds1bn0_z * t229 - (grounds1bn0_x * t228 + ((q0r1_x * state.z[3] +
+      (q0r1_z * state.z[5] - q0r1_y * state.z[4])) * t214 + t202 * (t36 * (t151 * (q0d3 + q0d3) + t169) + t52
+      * t211))));
+  const Real t256 = t131 * (t123 * t246 - (t116 * t241 + (grounds2bn0_z * t229 + (grounds2bn0_x * t228 - (t202
+      * (t36 * (t151 * t155 - q0d3 * t136 - (q0d2 * t141 - q0d1 * t146)) - t67 * t211) + (q0r0_z * state.z[5]
+      - (q0r0_x * state.z[3] - q0r0_y * state.z[4])) * t214)))));
+  const Real t258 = t122 * t246 - t123 * t256;
+  const Real t262 = t116 * t256 - (t108 * t241 - t109 * t258);
+  const Real t264 = t262 * Real(4.9999999999999995e-11);
+  const Real t270 = t258 * Real(1.5000000000000002e-10) + t109 * t264;
+  const Real t277 = t131 * (t123 * t270 - (t256 * Real(2.5e-10) + t116 * t264));
+  const Real t279 = t122 * t270 - t123 * t277;
+  const Real t284 = t116 * t277 + (t109 * t279 - (t262 + t108 * t264));
+  const Real t285 = t258 - t279;
+  const Real t286 = t256 - t277;
+  zdot[0] = t285 * model.c12;
+  zdot[1] = t286 * model.c12;
+  zdot[2] = -((t284 + model.q_2) * model.c12);
+  zdot[3] = model.c6 * (grounds2bn0_x * t286 + (grounds1bn0_x * t285 + (rdn0_x + t37 * t284)));
+  zdot[4] = model.c7 * (grounds1bn0_y * t285 + grounds2bn0_y * t286);
+  zdot[5] = -(model.c6 * (grounds2bn0_z * t286 - (grounds1bn0_z * t285 - (rdn0_z - t38 * t284))));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -340,7 +300,7 @@ template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept {
   const Real Tfree = (state.z[4] * state.z[4] * model.Jy0 + (state.z[3] * state.z[3] + state.z[5] *
       state.z[5]) * model.S0b_zz) * Real(0.5) + (state.z[2] * state.z[2] + (state.z[0] * state.z[0] +
-      state.z[1] * state.z[1])) * model.c15;
+      state.z[1] * state.z[1])) * model.c14;
   return Tfree;
 }
 
@@ -355,7 +315,7 @@ void outputs(const Model<Real>& model, const State<Real>& state, const Input<Rea
     noexcept {
   const Real Tfree = (state.z[4] * state.z[4] * model.Jy0 + (state.z[3] * state.z[3] + state.z[5] *
       state.z[5]) * model.S0b_zz) * Real(0.5) + (state.z[2] * state.z[2] + (state.z[0] * state.z[0] +
-      state.z[1] * state.z[1])) * model.c15;
+      state.z[1] * state.z[1])) * model.c14;
   const Real V = state.y[2] * model.q_2;
   result.kinetic = Tfree;
   result.potential = V;
@@ -373,13 +333,11 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real groundup = detail::square_root(-t12);
   const Real g_ground = groundup * model.radius - state.y[2];
   const Real t20 = state.y[6] * Real(0.5);
-  const Real t24 = (q0r2_y + q0r2_y) / groundup * model.c16;
-  const Real t26 = q0d1 * t24;
-  const Real t29 = t20 * t26;
-  const Real t30 = state.y[5] * t24;
-  const Real t37 = t20 * (q0d3 * t24) - (Real(0.5) * (state.y[4] * t26) + (state.y[5] * t30 - state.y[3] *
-      (state.y[3] * t24)));
-  const Real t41 = t29 + (t29 - Real(2.0) * (state.y[3] * t30));
+  const Real q0r2_x = Real(2.0) * (state.y[5] * state.y[3] - q0d1 * t20);
+  const Real t35 = (q0r2_y + q0r2_y) / groundup * model.c15;
+  const Real t36 = (state.y[5] * state.y[5] - (q0d3 * t20 + (state.y[3] * state.y[3] - state.y[4] *
+      state.y[4]))) * t35;
+  const Real t37 = q0r2_x * t35;
   const Real q0d2 = Real(2.0) * state.y[5];
   const Real q011 = state.y[4] * q0d1;
   const Real q022 = state.y[5] * q0d2;
@@ -389,123 +347,120 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real q002 = state.y[3] * q0d2;
   const Real q003 = q0d3 * state.y[3];
   const Real q0r1_x = q012 + q003;
-  const Real t51 = Real(1.0) - q011;
-  const Real q0r1_y = q033 - t51;
+  const Real t47 = Real(1.0) - q011;
+  const Real q0r1_y = q033 - t47;
   const Real q0r1_z = q023 - q001;
-  const Real q0r2_x = q013 - q002;
-  const Real q0r2_z = q022 - t51;
+  const Real q0r2_z = q022 - t47;
   const Real groundc_y = model.radius * (q0r2_y * q0r1_y / groundup);
   const Real groundc_z = model.radius * (t12 / groundup);
-  const Real grounds1bn0_x = q0r1_x * groundc_z + q0r2_x * groundc_y;
+  const Real grounds1bn0_x = q0r1_x * groundc_z - q0r2_x * groundc_y;
   const Real grounds1bn0_y = q0r1_y * groundc_z - q0r2_y * groundc_y;
   const Real grounds1bn0_z = q0r1_z * groundc_z - q0r2_z * groundc_y;
   const Real q0r0_x = q033 - (Real(1.0) - q022);
   const Real q0r0_y = q012 - q003;
   const Real q0r0_z = q013 + q002;
   const Real groundc_x = model.radius * (q0r2_y * q0r0_y / groundup);
-  const Real grounds2bn0_x = groundc_z * q0r0_x + q0r2_x * groundc_x;
+  const Real grounds2bn0_x = groundc_z * q0r0_x - q0r2_x * groundc_x;
   const Real grounds2bn0_y = groundc_z * q0r0_y - q0r2_y * groundc_x;
   const Real grounds2bn0_z = groundc_z * q0r0_z + q0r2_z * groundc_x;
-  const Real t89 = grounds1bn0_x * model.c17;
-  const Real t90 = grounds1bn0_z * model.c17;
-  const Real t93 = t37 * t89 - t41 * t90;
-  const Real t99 = grounds2bn0_x * model.c17;
-  const Real t100 = grounds2bn0_y * model.c7;
-  const Real t101 = grounds2bn0_z * model.c17;
-  const Real t104 = t37 * t99 + t41 * t101;
-  const Real t115 = Real(1.0) / (model.c17 * (t37 * t37 + t41 * t41) + model.c8);
-  const Real t116 = t93 * t115;
-  const Real t123 = t104 * t115;
-  const Real t127 = grounds1bn0_y * t100 + (grounds1bn0_x * t99 - (grounds1bn0_z * t101 + t93 * t123));
-  const Real t129 = Real(1.0) / (grounds1bn0_x * t89 + (grounds1bn0_y * grounds1bn0_y * model.c7 +
-      (grounds1bn0_z * t90 - t93 * t116)) + model.c9);
-  const Real t130 = t127 * t129;
-  const Real t138 = Real(1.0) / (grounds2bn0_x * t99 + (grounds2bn0_y * t100 + (grounds2bn0_z * t101 - (t104 *
-      t123 + t127 * t130))) + model.c10);
-  const Real t139 = g_ground * t116;
-  const Real t145 = t138 * (g_ground * t123 - t130 * t139);
-  const Real t147 = t129 * t139 - t130 * t145;
-  const Real t151 = t116 * t147 + (g_ground * t115 + t123 * t145);
-  const Real t166 = t147 * model.c13;
-  const Real t167 = t145 * model.c13;
-  const Real t168 = t151 * model.c13;
-  const Real t169 = model.c17 * (grounds1bn0_x * t147 - (t37 * t151 - grounds2bn0_x * t145));
-  const Real t170 = model.c7 * (grounds1bn0_y * t147 + grounds2bn0_y * t145);
-  const Real t171 = model.c17 * (grounds1bn0_z * t147 + (t41 * t151 - grounds2bn0_z * t145));
-  const Real t177 = Real(0.5) * t169;
-  const Real t178 = Real(0.5) * t170;
-  const Real t179 = Real(0.5) * t171;
-  const Real t186 = state.y[3] * t177 - (state.y[4] - (state.y[5] * t179 + state.y[6] * t178));
-  const Real t193 = state.y[3] * t178 + (state.y[5] - (state.y[6] * t177 - state.y[4] * t179));
-  const Real t197 = state.y[4] * t177 + (state.y[3] - (state.y[5] * t178 - state.y[6] * t179));
-  const Real t203 = state.y[3] * t179 - (state.y[6] + (state.y[4] * t178 + state.y[5] * t177));
-  const Real t212 = Real(1.0) / detail::square_root(t186 * t186 + (t197 * t197 + (t193 * t193 + t203 *
-      t203)));
-  const Real t213 = t197 * t212;
-  const Real t214 = t186 * t212;
-  const Real t215 = t193 * t212;
-  const Real t216 = t203 * t212;
-  const Real q0d1_2 = Real(2.0) * t214;
-  const Real q0d3_2 = Real(2.0) * t216;
-  const Real q023_2 = t215 * q0d3_2;
-  const Real q001_2 = t213 * q0d1_2;
+  const Real t84 = grounds1bn0_x * model.c16;
+  const Real t85 = grounds1bn0_z * model.c16;
+  const Real t88 = t36 * t84 - t37 * t85;
+  const Real t94 = grounds2bn0_x * model.c16;
+  const Real t95 = grounds2bn0_y * model.c7;
+  const Real t96 = grounds2bn0_z * model.c16;
+  const Real t99 = t36 * t94 + t37 * t96;
+  const Real t110 = Real(1.0) / (model.c16 * (t36 * t36 + t37 * t37) + model.c8);
+  const Real t111 = t88 * t110;
+  const Real t118 = t99 * t110;
+  const Real t122 = grounds1bn0_y * t95 + (grounds1bn0_x * t94 - (grounds1bn0_z * t96 + t88 * t118));
+  const Real t124 = Real(1.0) / (grounds1bn0_x * t84 + (grounds1bn0_y * grounds1bn0_y * model.c7 +
+      (grounds1bn0_z * t85 - t88 * t111)) + model.c9);
+  const Real t125 = t122 * t124;
+  const Real t133 = Real(1.0) / (grounds2bn0_x * t94 + (grounds2bn0_y * t95 + (grounds2bn0_z * t96 - (t99 *
+      t118 + t122 * t125))) + model.c10);
+  const Real t134 = g_ground * t111;
+  const Real t140 = t133 * (g_ground * t118 - t125 * t134);
+  const Real t142 = t124 * t134 - t125 * t140;
+  const Real t146 = t111 * t142 + (g_ground * t110 + t118 * t140);
+  const Real t161 = t142 * model.c12;
+  const Real t162 = t140 * model.c12;
+  const Real t163 = t146 * model.c12;
+  const Real t164 = model.c16 * (grounds1bn0_x * t142 - (t36 * t146 - grounds2bn0_x * t140));
+  const Real t165 = model.c7 * (grounds1bn0_y * t142 + grounds2bn0_y * t140);
+  const Real t166 = model.c16 * (grounds1bn0_z * t142 + (t37 * t146 - grounds2bn0_z * t140));
+  const Real t172 = Real(0.5) * t164;
+  const Real t173 = Real(0.5) * t165;
+  const Real t174 = Real(0.5) * t166;
+  const Real t181 = state.y[3] * t172 + (state.y[4] + (state.y[5] * t174 + state.y[6] * t173));
+  const Real t188 = state.y[3] * t173 - (state.y[5] + (state.y[6] * t172 - state.y[4] * t174));
+  const Real t192 = state.y[4] * t172 - (state.y[3] + (state.y[5] * t173 - state.y[6] * t174));
+  const Real t198 = state.y[3] * t174 + (state.y[6] - (state.y[4] * t173 + state.y[5] * t172));
+  const Real t207 = Real(1.0) / detail::square_root(t181 * t181 + (t192 * t192 + (t188 * t188 + t198 *
+      t198)));
+  const Real t208 = t192 * t207;
+  const Real t209 = t181 * t207;
+  const Real t210 = t188 * t207;
+  const Real t211 = t198 * t207;
+  const Real q0d1_2 = Real(2.0) * t209;
+  const Real q0d3_2 = Real(2.0) * t211;
+  const Real q023_2 = t210 * q0d3_2;
+  const Real q001_2 = t208 * q0d1_2;
   const Real q0r2_y_2 = q023_2 + q001_2;
-  const Real t223 = Real(1.0) - q0r2_y_2 * q0r2_y_2;
-  const Real groundup_2 = detail::square_root(t223);
-  const Real t225 = Real(0.5) * t216;
-  const Real t228 = model.c16 * ((q0r2_y_2 + q0r2_y_2) / groundup_2);
-  const Real t230 = q0d1_2 * t228;
-  const Real t233 = t225 * t230;
-  const Real t234 = t215 * t228;
-  const Real q0d2_2 = Real(2.0) * t215;
-  const Real q011_2 = t214 * q0d1_2;
-  const Real q022_2 = t215 * q0d2_2;
-  const Real q033_2 = t216 * q0d3_2;
-  const Real q012_2 = t214 * q0d2_2;
-  const Real q013_2 = t214 * q0d3_2;
-  const Real q002_2 = t213 * q0d2_2;
-  const Real q003_2 = t213 * q0d3_2;
+  const Real t218 = Real(1.0) - q0r2_y_2 * q0r2_y_2;
+  const Real groundup_2 = detail::square_root(t218);
+  const Real t220 = Real(0.5) * t211;
+  const Real t231 = t208 * t210 - q0d1_2 * t220;
+  const Real q0r2_x_2 = t231 + t231;
+  const Real t234 = model.c15 * ((q0r2_y_2 + q0r2_y_2) / groundup_2);
+  const Real q0d2_2 = Real(2.0) * t210;
+  const Real q011_2 = t209 * q0d1_2;
+  const Real q022_2 = t210 * q0d2_2;
+  const Real q033_2 = t211 * q0d3_2;
+  const Real q012_2 = t209 * q0d2_2;
+  const Real q013_2 = t209 * q0d3_2;
+  const Real q002_2 = t208 * q0d2_2;
+  const Real q003_2 = t208 * q0d3_2;
   const Real q0r1_x_2 = q012_2 + q003_2;
-  const Real t255 = Real(1.0) - q011_2;
-  const Real q0r1_y_2 = q033_2 - t255;
+  const Real t246 = Real(1.0) - q011_2;
+  const Real q0r1_y_2 = q033_2 - t246;
   const Real q0r1_z_2 = q023_2 - q001_2;
-  const Real q0r2_x_2 = q013_2 - q002_2;
-  const Real q0r2_z_2 = q022_2 - t255;
+  const Real q0r2_z_2 = q022_2 - t246;
   const Real groundc_y_2 = model.radius * (q0r2_y_2 * q0r1_y_2 / groundup_2);
-  const Real groundc_z_2 = model.radius * (t223 / groundup_2);
-  const Real grounds1bn0_x_2 = q0r1_x_2 * groundc_z_2 - q0r2_x_2 * groundc_y_2;
+  const Real groundc_z_2 = model.radius * (t218 / groundup_2);
+  const Real grounds1bn0_x_2 = q0r1_x_2 * groundc_z_2 + q0r2_x_2 * groundc_y_2;
   const Real grounds1bn0_y_2 = q0r1_y_2 * groundc_z_2 + q0r2_y_2 * groundc_y_2;
   const Real grounds1bn0_z_2 = q0r1_z_2 * groundc_z_2 + q0r2_z_2 * groundc_y_2;
   const Real q0r0_x_2 = q033_2 - (Real(1.0) - q022_2);
   const Real q0r0_y_2 = q012_2 - q003_2;
   const Real q0r0_z_2 = q013_2 + q002_2;
   const Real groundc_x_2 = model.radius * (q0r2_y_2 * q0r0_y_2 / groundup_2);
-  const Real grounds2bn0_x_2 = groundc_z_2 * q0r0_x_2 - q0r2_x_2 * groundc_x_2;
+  const Real grounds2bn0_x_2 = groundc_z_2 * q0r0_x_2 + q0r2_x_2 * groundc_x_2;
   const Real grounds2bn0_y_2 = groundc_z_2 * q0r0_y_2 + q0r2_y_2 * groundc_x_2;
   const Real grounds2bn0_z_2 = groundc_z_2 * q0r0_z_2 - q0r2_z_2 * groundc_x_2;
-  const Real t299 = (t225 * (q0d3_2 * t228) - (Real(0.5) * (t214 * t230) + (t215 * t234 - t213 * (t213 *
-      t228)))) * state.z[3] - (state.z[2] + (t233 + (t233 - Real(2.0) * (t213 * t234))) * state.z[5]);
-  const Real t310 = grounds1bn0_x_2 * state.z[3] + (state.z[0] + (grounds1bn0_y_2 * state.z[4] +
-      (grounds1bn0_z_2 * state.z[5] + t116 * t299)));
-  const Real t320 = t138 * (grounds2bn0_x_2 * state.z[3] - (state.z[1] - (grounds2bn0_y_2 * state.z[4] -
-      (grounds2bn0_z_2 * state.z[5] + (t123 * t299 - t130 * t310)))));
-  const Real t322 = t129 * t310 + t130 * t320;
-  const Real t326 = t116 * t322 + (t115 * t299 - t123 * t320);
-  closed.y[0] = -(t166 - state.y[0]);
-  closed.y[1] = -(t167 - state.y[1]);
-  closed.y[2] = state.y[2] + t168;
-  closed.y[3] = t213;
-  closed.y[4] = -t214;
-  closed.y[5] = t215;
-  closed.y[6] = -t216;
-  closed.z[0] = state.z[0] - model.c13 * t322;
-  closed.z[1] = state.z[1] + model.c13 * t320;
-  closed.z[2] = state.z[2] + model.c13 * t326;
-  closed.z[3] = state.z[3] - model.c17 * (grounds1bn0_x * t322 - (t37 * t326 + grounds2bn0_x * t320));
-  closed.z[4] = state.z[4] + model.c7 * (grounds1bn0_y * t322 - grounds2bn0_y * t320);
-  closed.z[5] = state.z[5] - model.c17 * (grounds1bn0_z * t322 + (t41 * t326 + grounds2bn0_z * t320));
-  closed.regularity = Real(1.0) / (t138 * (t115 * t129)) * Real(0.5333333333333331);
-  closed.opening = t167 * t167 + (t166 * t166 + (t168 * t168 + (t169 * t169 + (t170 * t170 + t171 * t171))));
+  const Real t289 = (t210 * t210 - (q0d3_2 * t220 + (t208 * t208 - t209 * t209))) * t234 * state.z[3] +
+      (state.z[2] - q0r2_x_2 * t234 * state.z[5]);
+  const Real t300 = grounds1bn0_x_2 * state.z[3] + (state.z[0] + (grounds1bn0_y_2 * state.z[4] +
+      (grounds1bn0_z_2 * state.z[5] + t111 * t289)));
+  const Real t310 = t133 * (grounds2bn0_x_2 * state.z[3] - (state.z[1] - (grounds2bn0_y_2 * state.z[4] -
+      (grounds2bn0_z_2 * state.z[5] + (t118 * t289 - t125 * t300)))));
+  const Real t312 = t124 * t300 + t125 * t310;
+  const Real t316 = t111 * t312 + (t110 * t289 - t118 * t310);
+  closed.y[0] = t161 + state.y[0];
+  closed.y[1] = t162 + state.y[1];
+  closed.y[2] = state.y[2] + t163;
+  closed.y[3] = -t208;
+  closed.y[4] = t209;
+  closed.y[5] = -t210;
+  closed.y[6] = t211;
+  closed.z[0] = state.z[0] - model.c12 * t312;
+  closed.z[1] = state.z[1] + model.c12 * t310;
+  closed.z[2] = state.z[2] - model.c12 * t316;
+  closed.z[3] = state.z[3] - model.c16 * (grounds1bn0_x * t312 - (t36 * t316 + grounds2bn0_x * t310));
+  closed.z[4] = state.z[4] + model.c7 * (grounds1bn0_y * t312 - grounds2bn0_y * t310);
+  closed.z[5] = state.z[5] - model.c16 * (grounds1bn0_z * t312 + (t37 * t316 + grounds2bn0_z * t310));
+  closed.regularity = Real(1.0) / (t133 * (t110 * t124)) * Real(0.5333333333333331);
+  closed.opening = t162 * t162 + (t161 * t161 + (t163 * t163 + (t164 * t164 + (t165 * t165 + t166 * t166))));
   state = closed;
 }
 
@@ -520,10 +475,9 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real t12 = q0r2_y * q0r2_y - Real(1.0);
   const Real groundup = detail::square_root(-t12);
   const Real g_ground = groundup * model.radius - state.y[2];
-  const Real t22 = (q0r2_y + q0r2_y) / groundup * model.c16;
-  const Real t24 = q0d1 * t22;
-  const Real t26 = state.y[5] * t22;
-  const Real t31 = state.y[3] * t26;
+  const Real t20 = state.y[4] * Real(0.5);
+  const Real q0r2_x = Real(2.0) * (q0d3 * t20 - state.y[5] * state.y[3]);
+  const Real t35 = (q0r2_y + q0r2_y) / groundup * model.c15;
   const Real q0d2 = Real(2.0) * state.y[5];
   const Real q011 = state.y[4] * q0d1;
   const Real q022 = state.y[5] * q0d2;
@@ -533,11 +487,10 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real q002 = state.y[3] * q0d2;
   const Real q003 = q0d3 * state.y[3];
   const Real q0r1_x = q012 + q003;
-  const Real t41 = Real(1.0) - q011;
-  const Real q0r1_y = q033 - t41;
+  const Real t47 = Real(1.0) - q011;
+  const Real q0r1_y = q033 - t47;
   const Real q0r1_z = q023 - q001;
-  const Real q0r2_x = q013 - q002;
-  const Real q0r2_z = q022 - t41;
+  const Real q0r2_z = q022 - t47;
   const Real groundc_y = model.radius * (q0r2_y * q0r1_y / groundup);
   const Real groundc_z = model.radius * (t12 / groundup);
   const Real grounds1bn0_x = q0r1_x * groundc_z + q0r2_x * groundc_y;
@@ -557,8 +510,8 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   g[0] = -g_ground;
   g[1] = Real(0.0);
   g[2] = Real(0.0);
-  g_rate[0] = state.z[5] * (t31 - (state.y[6] * t24 - t31)) + (state.z[2] - state.z[3] * ((state.y[4] * t24 -
-      state.y[6] * (q0d3 * t22)) * Real(0.5) + (state.y[5] * t26 - state.y[3] * (state.y[3] * t22))));
+  g_rate[0] = -(q0r2_x * t35 * state.z[5] - (state.z[2] - (q0d1 * t20 - (state.y[3] * state.y[3] + (state.y[6]
+      * state.y[6] - state.y[5] * state.y[5]))) * t35 * state.z[3]));
   g_rate[1] = grounds0;
   g_rate[2] = -grounds1;
 }
@@ -580,15 +533,11 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t20 = q0r2_y + q0r2_y;
   const Real t21 = Real(1.0) / groundup;
   const Real t22 = Real(0.5) * t21;
-  const Real t24 = t22 * model.radius;
-  const Real t25 = t20 * t24;
-  const Real t27 = q0d1 * t25;
-  const Real t30 = q0d3 * t25;
-  const Real t32 = Real(2.0) * (state.y[5] * t25);
-  const Real t34 = t16 * t32;
-  const Real t35 = Real(2.0) * (state.y[3] * t25);
-  const Real t39 = t16 * t35 - (t18 * t32 + (t17 * t27 - t19 * t30));
-  const Real t42 = t34 + (t34 - state.y[6] * t27);
+  const Real q0r2_x = Real(2.0) * (q0d3 * t17 - state.y[5] * state.y[3]);
+  const Real t34 = t20 * t22;
+  const Real t36 = t34 * model.radius;
+  const Real t37 = (q0d1 * t17 - (state.y[3] * state.y[3] + (q0d3 * t19 - state.y[5] * state.y[5]))) * t36;
+  const Real t38 = q0r2_x * t36;
   const Real q0d2 = Real(2.0) * state.y[5];
   const Real q011 = state.y[4] * q0d1;
   const Real q022 = state.y[5] * q0d2;
@@ -598,105 +547,72 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real q002 = state.y[3] * q0d2;
   const Real q003 = q0d3 * state.y[3];
   const Real q0r1_x = q012 + q003;
-  const Real t52 = Real(1.0) - q011;
-  const Real q0r1_y = q033 - t52;
+  const Real t48 = Real(1.0) - q011;
+  const Real q0r1_y = q033 - t48;
   const Real q0r1_z = q023 - q001;
-  const Real q0r2_x = q013 - q002;
-  const Real q0r2_z = q022 - t52;
-  const Real t57 = model.radius * q0r1_y;
-  const Real groundc_y = t25 * q0r1_y;
+  const Real q0r2_z = q022 - t48;
+  const Real t52 = model.radius * q0r1_y;
+  const Real groundc_y = t34 * t52;
   const Real groundc_z = model.radius * (t12 / groundup);
   const Real grounds1bn0_x = q0r1_x * groundc_z + q0r2_x * groundc_y;
-  const Real grounds1bn0_y = t21 * t57;
+  const Real grounds1bn0_y = t21 * t52;
   const Real grounds1bn0_z = q0r1_z * groundc_z - q0r2_z * groundc_y;
   const Real q0r0_x = q022 - (Real(1.0) - q033);
   const Real q0r0_y = q012 - q003;
   const Real q0r0_z = q013 + q002;
-  const Real t72 = model.radius * q0r0_y;
-  const Real groundc_x = t25 * q0r0_y;
+  const Real t67 = model.radius * q0r0_y;
+  const Real groundc_x = t34 * t67;
   const Real grounds2bn0_x = groundc_z * q0r0_x + q0r2_x * groundc_x;
-  const Real grounds2bn0_y = t21 * t72;
+  const Real grounds2bn0_y = t21 * t67;
   const Real grounds2bn0_z = groundc_z * q0r0_z + q0r2_z * groundc_x;
-  const Real t87 = grounds1bn0_x * model.c6;
-  const Real t88 = grounds1bn0_z * model.c6;
-  const Real t91 = t39 * t87 + t42 * t88;
-  const Real t97 = grounds2bn0_x * model.c6;
-  const Real t98 = grounds2bn0_y * model.c7;
-  const Real t99 = grounds2bn0_z * model.c6;
-  const Real t102 = t39 * t97 - t42 * t99;
-  const Real t113 = Real(1.0) / (model.c6 * (t39 * t39 + t42 * t42) + model.c8);
-  const Real t114 = t91 * t113;
-  const Real t121 = t102 * t113;
-  const Real t125 = t91 * t121 + (grounds1bn0_z * t99 - (grounds1bn0_x * t97 + grounds1bn0_y * t98));
-  const Real t127 = Real(1.0) / (t91 * t114 - (grounds1bn0_z * t88 + (grounds1bn0_y * grounds1bn0_y * model.c7
-      + (grounds1bn0_x * t87 + model.c9))));
-  const Real t128 = t125 * t127;
-  const Real t136 = Real(1.0) / (t125 * t128 - (t102 * t121 - (grounds2bn0_z * t99 + (grounds2bn0_y * t98 +
-      (grounds2bn0_x * t97 + model.c10)))));
-  const Real t141 = t19 * state.z[5] + (t17 * state.z[3] + t18 * state.z[4]);
-  const Real t146 = t18 * state.z[5] + (t16 * state.z[3] - t19 * state.z[4]);
-  const Real t151 = t17 * state.z[5] - (t19 * state.z[3] + t16 * state.z[4]);
-  const Real t156 = t16 * state.z[5] - (t18 * state.z[3] - t17 * state.z[4]);
-  const Real t161 = Real(2.0) * t146;
-  const Real t162 = q0d2 * t146;
-  const Real t166 = q0d1 * t161;
-  const Real t167 = Real(2.0) * t156;
-  const Real t169 = q0d3 * t167;
-  const Real t171 = q0d3 * t146 + state.y[4] * t167;
-  const Real t174 = state.y[5] * t167 - q0d3 * t151;
-  const Real t176 = Real(2.0) * t151;
-  const Real t177 = q0d2 * t151;
-  const Real t179 = state.y[3] * t161 - q0d1 * t141;
-  const Real t180 = q0d2 * t141;
-  const Real t182 = state.y[3] * t167 - q0d3 * t141;
-  const Real t183 = t174 + t179;
-  const Real t185 = t20 * t183;
-  const Real t190 = t22 * t185;
-  const Real t191 = model.radius * t185;
-  const Real t194 = t21 * groundc_z * t190;
-  const Real t196 = groundc_x * state.z[5];
-  const Real t199 = groundc_z * state.z[5];
-  const Real t204 = groundc_x * state.z[3];
-  const Real t207 = q0r2_x * state.z[3] - (q0r2_z * state.z[5] - q0r2_y * state.z[4]);
-  const Real t210 = q0r0_x * state.z[3] - (q0r0_z * state.z[5] + q0r0_y * state.z[4]);
-  const Real t211 = groundc_z * state.z[3];
-  const Real t212 = t21 * t207;
-  const Real t216 = groundc_z * state.z[4] - t25 * t207;
-  const Real t217 = groundc_y * state.z[5];
-  const Real t221 = groundc_y * state.z[3];
-  const Real t224 = q0r1_x * state.z[3] + (q0r1_z * state.z[5] - q0r1_y * state.z[4]);
-  const Real t233 = t196 - t211;
-  const Real t235 = t199 + t204;
-  const Real t264 = t167 * (t25 * t151);
-  const Real t270 = t141 * (t25 * t161);
+  const Real t82 = grounds1bn0_x * model.c6;
+  const Real t83 = grounds1bn0_z * model.c6;
+  const Real t86 = t37 * t82 + t38 * t83;
+  const Real t92 = grounds2bn0_x * model.c6;
+  const Real t93 = grounds2bn0_y * model.c7;
+  const Real t94 = grounds2bn0_z * model.c6;
+  const Real t97 = t37 * t92 - t38 * t94;
+  const Real t108 = Real(1.0) / (model.c6 * (t37 * t37 + t38 * t38) + model.c8);
+  const Real t109 = t86 * t108;
+  const Real t116 = t97 * t108;
+  const Real t120 = t86 * t116 + (grounds1bn0_z * t94 - (grounds1bn0_x * t92 + grounds1bn0_y * t93));
+  const Real t122 = Real(1.0) / (t86 * t109 - (grounds1bn0_z * t83 + (grounds1bn0_x * t82 + grounds1bn0_y *
+      grounds1bn0_y * model.c7)) - model.c9);
+  const Real t123 = t120 * t122;
+  const Real t131 = Real(1.0) / (t120 * t123 - (t97 * t116 - (grounds2bn0_z * t94 + (grounds2bn0_x * t92 +
+      grounds2bn0_y * t93))) + model.c10);
+  const Real t136 = t19 * state.z[5] + (t17 * state.z[3] + t18 * state.z[4]);
+  const Real t141 = t18 * state.z[5] + (t16 * state.z[3] - t19 * state.z[4]);
+  const Real t146 = t17 * state.z[5] - (t19 * state.z[3] + t16 * state.z[4]);
+  const Real t151 = t16 * state.z[5] - (t18 * state.z[3] - t17 * state.z[4]);
+  const Real t155 = Real(2.0) * state.y[3];
+  const Real t169 = t141 * (q0d1 + q0d1);
+  const Real t196 = t141 * t155 - q0d1 * t136 + (q0d2 * t151 - q0d3 * t146);
+  const Real t202 = q0r2_x * state.z[3] - (q0r2_z * state.z[5] - q0r2_y * state.z[4]);
+  const Real t211 = (t21 + t20 * (t34 * (t21 * t22))) * t196;
+  const Real t214 = (t36 + t36 + t34 * (t21 * groundc_z)) * t196;
   const Real rww00 = state.z[4] * state.z[5];
   const Real rww02 = state.z[3] * state.z[4];
-  const Real t291 = rww00 * model.c18;
-  const Real t292 = rww02 * model.c18;
-  const Real t312 = t42 * t292 - (t39 * t291 + (Real(2.0) * (t183 * (t24 * t183)) + (t191 * (t21 * t22 * t190)
-      - (t270 + (t270 + (t264 + (t264 + (Real(0.5) * (t141 * (t35 * state.z[3] + (t32 * state.z[5] + t30 *
-      state.z[4])) + (t146 * (t27 * state.z[3] - (t32 * state.z[4] - t30 * state.z[5])) + (t156 * (t35 *
-      state.z[4] - (t30 * state.z[3] - t27 * state.z[5])) + t151 * (t35 * state.z[5] - (t32 * state.z[3] + t27
-      * state.z[4]))))) + model.c12))))))));
-  const Real t331 = t221 * (t171 + t180) + (t211 * (t162 + t182) + (t114 * t312 - (grounds1bn0_z * t292 -
-      (grounds1bn0_x * t291 + (t176 * (state.y[5] * t217 + (state.y[3] * t221 - state.y[4] * t211)) - (t166 *
-      (t216 + t217) - (t177 * t217 - (t169 * t216 - ((t174 - t179) * t199 + (t57 * t183 * t212 + (t21 *
-      groundc_y * t190 * t207 + (t191 * (t21 * t224) + (state.z[4] * (groundc_y * t183) + t194 *
-      t224)))))))))))));
-  const Real t353 = t136 * (t216 * (t162 - t182) + (t128 * t331 - (t121 * t312 + (grounds2bn0_z * t292 +
-      (grounds2bn0_x * t291 + (t176 * (state.y[5] * t233 + (state.y[3] * t235 + state.y[4] * t216)) - (t166 *
-      t196 - (t177 * t233 + (t169 * t211 - (t171 * (t199 - t204) - (t180 * t235 + (t191 * (t21 * t210) + (t194
-      * t210 + (t72 * t183 * t212 + (state.z[4] * (groundc_x * t183) + t21 * groundc_x * t190 *
-      t207)))))))))))))));
-  const Real t355 = t127 * t331 - t128 * t353;
-  const Real t359 = t121 * t353 - (t113 * t312 - t114 * t355);
-  const Real t361 = t359 * Real(4.9999999999999995e-11);
-  const Real t367 = t355 * Real(1.5000000000000002e-10) + t114 * t361;
-  const Real t374 = t136 * (t128 * t367 - (t353 * Real(2.5e-10) + t121 * t361));
-  const Real t376 = t127 * t367 - t128 * t374;
-  lambda[0] = -(t121 * t374 + (t114 * t376 - (t359 + t113 * t361)));
-  lambda[1] = -(t355 - t376);
-  lambda[2] = -(t353 - t374);
+  const Real t226 = rww00 * model.c17;
+  const Real t227 = rww02 * model.c17;
+  const Real t239 = t38 * t227 - (t37 * t226 - (model.radius * (t196 * t211) - (state.z[3] * (t36 * (t169 -
+      t146 * (q0d2 + q0d2))) + (t146 * t155 + (q0d1 * t151 + q0d3 * t141 + q0d2 * t136)) * (t36 *
+      state.z[5]))) + model.c11);
+  const Real t244 = t109 * t239 - (grounds1bn0_z * t227 - (grounds1bn0_x * t226 + ((q0r1_x * state.z[3] +
+      (q0r1_z * state.z[5] - q0r1_y * state.z[4])) * t214 + t202 * (t36 * (t151 * (q0d3 + q0d3) + t169) + t52
+      * t211))));
+  const Real t254 = t131 * (t123 * t244 - (t116 * t239 + (grounds2bn0_z * t227 + (grounds2bn0_x * t226 - (t202
+      * (t36 * (t151 * t155 - q0d3 * t136 - (q0d2 * t141 - q0d1 * t146)) - t67 * t211) + (q0r0_z * state.z[5]
+      - (q0r0_x * state.z[3] - q0r0_y * state.z[4])) * t214)))));
+  const Real t256 = t122 * t244 - t123 * t254;
+  const Real t260 = t116 * t254 - (t108 * t239 - t109 * t256);
+  const Real t262 = t260 * Real(4.9999999999999995e-11);
+  const Real t268 = t256 * Real(1.5000000000000002e-10) + t109 * t262;
+  const Real t275 = t131 * (t123 * t268 - (t254 * Real(2.5e-10) + t116 * t262));
+  const Real t277 = t122 * t268 - t123 * t275;
+  lambda[0] = t116 * t275 + (t109 * t277 - (t260 + t108 * t262));
+  lambda[1] = -(t256 - t277);
+  lambda[2] = -(t254 - t275);
 }
 
 template <class Real> JOURDAIN_FUNCTION

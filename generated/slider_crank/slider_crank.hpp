@@ -142,6 +142,7 @@ struct Model {
   }
 
   Real c0;
+  Real c1;
 };
 
 // Names in order, closed by a null pointer.
@@ -181,7 +182,7 @@ template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1][1]) noexcept;
 
 /// Inertia terms k_bar: Coriolis, centrifugal and those of prescribed motion; no gravity.
-/// 56 operations (38 mul, 17 add and sub, 1 div), 4 sin and cos.
+/// 53 operations (36 mul, 16 add and sub, 1 div), 4 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noexcept;
 
@@ -200,7 +201,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
-/// 77 operations (47 mul, 29 add and sub, 1 div), 4 sin and cos.
+/// 74 operations (45 mul, 28 add and sub, 1 div), 4 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[1], Real
     (&tau)[1]) noexcept;

@@ -305,6 +305,10 @@ Model<Real>::Model(const Parameters& parameters) noexcept {
   const Real t3 = Real(0.5) * expression;
   const Real crankshaft_S_xx = t3 + (expression - t3);
   c0 = crankshaft_S_xx + crankshaft_S_xx + Real(0.0042275);
+  const Real crankshaft_S_xx_2 = t3 - (expression + t3);
+  const Real rod_S_xx = crankshaft_S_xx_2 - Real(0.00111375);
+  const Real S0b_zz = crankshaft_S_xx_2 + rod_S_xx;
+  c1 = Real(0.00311375) - S0b_zz;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -367,24 +371,25 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[1]) noexcept 
   const Real piston_pinbx1_x = r1_x - piston_pinbx_x;
   const Real r1_y = s0 * Real(0.045);
   const Real piston_pinbx_y = s1 * Real(0.145);
-  const Real t20 = Real(1.0) / piston_pinbx_x;
-  const Real t21 = piston_pinbx1_x * t20;
-  const Real t26 = t21 * state.z[0];
+  const Real piston_pinbx1_y = r1_y + piston_pinbx_y;
+  const Real t21 = Real(1.0) / piston_pinbx_x;
+  const Real t22 = piston_pinbx1_x * t21;
+  const Real t26 = t22 * state.z[0];
+  const Real t27 = Real(0.045) * state.z[0];
   const Real w1_z = state.z[0] + t26;
-  const Real t30 = Real(0.145) * w1_z;
-  const Real t31 = Real(0.045) * state.z[0];
-  const Real t33 = c0 * state.z[0] * t31;
-  const Real t35 = s0 * state.z[0] * t31;
-  const Real t38 = t20 * (t35 + w1_z * (s1 * t30));
+  const Real t31 = state.z[0] * (s0 * t27);
+  const Real t32 = t27 * (c0 * state.z[0]);
+  const Real t37 = t21 * (t31 + w1_z * (piston_pinbx_y * w1_z));
   const Real h1b_x = c1 * Real(0.02475);
   const Real h1b_y = s1 * Real(0.02475);
+  const Real kQp1 = t31 * h1b_x + t32 * h1b_y;
   const Real zw_1 = t26 * (state.z[0] + w1_z);
   const Real kdf1_x = h1b_x * zw_1;
   const Real kdf1_y = h1b_y * zw_1;
+  const Real kn1c_z = r1_x * kdf1_y + r1_y * kdf1_x;
   const Real E1 = t5 * Real(0.00111375) + Real(0.00311375);
-  k[0] = (piston_pinbx_y * t21 + (r1_y + piston_pinbx_y)) * (w1_z * (c1 * t30) - (t33 - piston_pinbx_y * t38))
-      * Real(0.48) + (t21 * (t38 * Real(0.00311375) - (t35 * h1b_x + t33 * h1b_y)) + (t38 * E1 + (r1_x *
-      kdf1_y + r1_y * kdf1_x)));
+  k[0] = kn1c_z + t37 * E1 - t22 * (kQp1 - t37 * Real(0.00311375)) + (piston_pinbx1_y + piston_pinbx_y * t22)
+      * (t22 * t32 + piston_pinbx_y * t37) * Real(0.48);
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -423,11 +428,11 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t21 = piston_pinbx1_x * t20;
   const Real t24 = piston_pinbx_y + (r1_y + piston_pinbx_y * t21);
   const Real t26 = t21 * state.z[0];
+  const Real t27 = Real(0.045) * state.z[0];
   const Real w1_z = state.z[0] + t26;
-  const Real t30 = Real(0.045) * state.z[0];
-  const Real t31 = c0 * state.z[0] * t30;
-  const Real t33 = s0 * state.z[0] * t30;
-  const Real t36 = t20 * (t33 + w1_z * (piston_pinbx_y * w1_z));
+  const Real t31 = state.z[0] * (s0 * t27);
+  const Real t32 = t27 * (c0 * state.z[0]);
+  const Real t36 = t20 * (t31 + w1_z * (piston_pinbx_y * w1_z));
   const Real h1b_x = c1 * Real(0.02475);
   const Real h1b_y = s1 * Real(0.02475);
   const Real D1 = t5 * Real(0.00111375);
@@ -437,13 +442,13 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real h0b_y = s0 * Real(0.02475);
   const Real h0_y = h1b_y + h0b_y;
   const Real rQp0 = h0_y * Real(9.81);
-  const Real ra1o_x = t31 - Real(9.81);
+  const Real ra1o_x = t32 - Real(9.81);
   const Real zw_1 = t26 * (state.z[0] + w1_z);
   const Real rdf1_x = t36 * h1b_y + h1b_x * zw_1;
   const Real rdf1_y = t36 * h1b_x - h1b_y * zw_1;
   const Real rdn1_z = t36 * Real(0.00311375);
-  const Real rdf2t_z = (piston_pinbx_y * t36 + t21 * t31) * Real(0.48);
-  const Real rQ1_0 = h1b_y * ra1o_x + (t33 * h1b_x - rdn1_z);
+  const Real rdf2t_z = (piston_pinbx_y * t36 + t21 * t32) * Real(0.48);
+  const Real rQ1_0 = h1b_y * ra1o_x + (t31 * h1b_x - rdn1_z);
   const Real tau_2_0 = rdf2t_z - input.u[0] + Real(4.7088);
   zdot[0] = (rdn1_z + (rQp0 - (r1_x * rdf1_y - (r1_y * rdf1_x + (input.u[1] - (t21 * rQ1_0 - t24 *
       tau_2_0)))))) / (T2 * Real(2.0));
@@ -461,34 +466,37 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real piston_pinbx1_x = r1_x - piston_pinbx_x;
   const Real r1_y = s0 * Real(0.045);
   const Real piston_pinbx_y = s1 * Real(0.145);
-  const Real t20 = Real(1.0) / piston_pinbx_x;
-  const Real t21 = piston_pinbx1_x * t20;
-  const Real t24 = piston_pinbx_y * t21 + (r1_y + piston_pinbx_y);
-  const Real t26 = t21 * state.z[0];
+  const Real piston_pinbx1_y = r1_y + piston_pinbx_y;
+  const Real t21 = Real(1.0) / piston_pinbx_x;
+  const Real t22 = piston_pinbx1_x * t21;
+  const Real t24 = piston_pinbx1_y + piston_pinbx_y * t22;
+  const Real t26 = t22 * state.z[0];
+  const Real t27 = Real(0.045) * state.z[0];
   const Real w1_z = state.z[0] + t26;
-  const Real t30 = Real(0.145) * w1_z;
-  const Real t31 = Real(0.045) * state.z[0];
-  const Real t33 = c0 * state.z[0] * t31;
-  const Real t35 = s0 * state.z[0] * t31;
-  const Real t38 = t20 * (t35 + w1_z * (s1 * t30));
-  const Real t42 = t38 - t21 * zdot[0];
+  const Real t31 = state.z[0] * (s0 * t27);
+  const Real t32 = t27 * (c0 * state.z[0]);
+  const Real t37 = t21 * (t31 + w1_z * (piston_pinbx_y * w1_z));
+  const Real t42 = t37 - t22 * zdot[0];
   const Real h1b_x = c1 * Real(0.02475);
   const Real h1b_y = s1 * Real(0.02475);
   const Real h0b_y = s0 * Real(0.02475);
   const Real h0_y = h1b_y + h0b_y;
-  const Real J0 = t5 * Real(0.0022275) + model.c0;
+  const Real J0 = t5 * Real(0.0022275) + model.c1;
   const Real aQp0 = h0_y * Real(9.81);
   const Real adn0_z = zdot[0] * J0;
-  const Real aa1o_x = t33 - (Real(9.81) - r1_y * zdot[0]);
-  const Real aa1o_y = t35 - r1_x * zdot[0];
+  const Real aa1o_x = t32 - (Real(9.81) - r1_y * zdot[0]);
+  const Real aa1o_y = t31 - r1_x * zdot[0];
+  const Real aQp1 = zdot[0] * Real(0.00311375) + h1b_x * aa1o_y + h1b_y * aa1o_x;
   const Real zw_1 = t26 * (state.z[0] + w1_z);
   const Real adf1_x = t42 * h1b_y + h1b_x * zw_1;
   const Real adf1_y = t42 * h1b_x - h1b_y * zw_1;
   const Real adn1_z = t42 * Real(0.00311375);
-  const Real adf2t_z = (w1_z * (c1 * t30) - (t24 * zdot[0] + (t33 - piston_pinbx_y * t38))) * Real(0.48);
-  const Real aQ1_0 = adn1_z - (h1b_y * aa1o_x + (zdot[0] * Real(0.00311375) + h1b_x * aa1o_y));
+  const Real adf2t_z = (t22 * t32 + piston_pinbx_y * t37 - t24 * zdot[0]) * Real(0.48);
+  const Real an1c_z = adn1_z - (adn0_z + (r1_x * adf1_y - r1_y * adf1_x));
+  const Real aQ0_0 = aQp0 + an1c_z;
+  const Real aQ1_0 = aQp1 - adn1_z;
   const Real aQ2_0 = adf2t_z + Real(4.7088);
-  tau[0] = -(t24 * aQ2_0 + (t21 * aQ1_0 + (r1_y * adf1_x - (r1_x * adf1_y + (adn0_z - (aQp0 + adn1_z))))));
+  tau[0] = -(aQ0_0 - t22 * aQ1_0 + t24 * aQ2_0);
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -603,12 +611,12 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t21 = piston_pinbx1_x * t20;
   const Real t24 = piston_pinbx_y + (r1_y + piston_pinbx_y * t21);
   const Real t26 = t21 * state.z[0];
+  const Real t27 = Real(0.045) * state.z[0];
   const Real w1_z = state.z[0] + t26;
-  const Real t30 = Real(0.045) * state.z[0];
-  const Real t31 = c0 * state.z[0] * t30;
-  const Real ra1o_y = s0 * state.z[0] * t30;
+  const Real ra1o_y = state.z[0] * (s0 * t27);
+  const Real t32 = t27 * (c0 * state.z[0]);
   const Real t36 = t20 * (ra1o_y + w1_z * (piston_pinbx_y * w1_z));
-  const Real t39 = piston_pinbx_y * t36 + t21 * t31;
+  const Real t39 = piston_pinbx_y * t36 + t21 * t32;
   const Real h1b_x = c1 * Real(0.02475);
   const Real h1b_y = s1 * Real(0.02475);
   const Real D1 = t5 * Real(0.00111375);
@@ -618,7 +626,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real h0b_y = s0 * Real(0.02475);
   const Real h0_y = h1b_y + h0b_y;
   const Real rQp0 = h0_y * Real(9.81);
-  const Real ra1o_x = t31 - Real(9.81);
+  const Real ra1o_x = t32 - Real(9.81);
   const Real zw_1 = t26 * (state.z[0] + w1_z);
   const Real rdf1_x = t36 * h1b_y + h1b_x * zw_1;
   const Real rdf1_y = t36 * h1b_x - h1b_y * zw_1;

@@ -301,21 +301,22 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[1]) noexcept 
   const Real t28 = t25 * state.z[0];
   const Real t29 = t26 * state.z[0];
   const Real w1_z = state.z[0] - t28;
-  const Real t36 = state.z[0] * (c0 * state.z[0]);
-  const Real t37 = state.z[0] * (s0 * state.z[0]);
-  const Real t44 = t36 - t29 * (c2 * t29) - w1_z * (c1 * w1_z);
-  const Real t46 = t37 - t29 * (s2 * t29) + w1_z * (s1 * w1_z);
-  const Real t50 = t21 * (c2 * t44 + s2 * t46);
+  const Real t37 = state.z[0] - t29;
+  const Real t39 = t28 * (c1 * w1_z) + c2 * t29 * t37;
+  const Real t41 = t28 * (s1 * w1_z) - s2 * t29 * t37;
+  const Real t45 = t21 * (c2 * t39 - s2 * t41);
   const Real h1b_x = c1 * Real(0.5);
   const Real h1b_y = s1 * Real(0.5);
-  const Real kQp1 = t37 * h1b_x + t36 * h1b_y;
+  const Real kW0w22 = state.z[0] * state.z[0];
+  const Real ka1o_x = c0 * kW0w22;
+  const Real ka1o_y = s0 * kW0w22;
   const Real zw_1 = t28 * (state.z[0] + w1_z);
   const Real kdf1_x = h1b_x * zw_1;
   const Real kdf1_y = h1b_y * zw_1;
-  const Real kn1c_z = c0 * kdf1_y + s0 * kdf1_x;
   const Real E1 = t5 * Real(0.5) + Real(0.3333333333333333);
-  k[0] = -(kn1c_z - t50 * E1 - t25 * (kQp1 - t50 * Real(0.3333333333333333)) + Real(0.3333333333333333) * (t26
-      * (t21 * (c1 * t44 - s1 * t46))));
+  k[0] = -(Real(0.3333333333333333) * (t26 * (t21 * (c1 * t39 + s1 * t41))) + (t25 * (t45 *
+      Real(0.3333333333333333) - (h1b_x * ka1o_y + h1b_y * ka1o_x)) - (t45 * E1 - (c0 * kdf1_y + s0 *
+      kdf1_x))));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -366,18 +367,17 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real diagonalbv2_x = s2 * t30;
   const Real diagonalbv2_y = c2 * t30;
   const Real w1_z = state.z[0] - t29;
-  const Real t37 = state.z[0] * (c0 * state.z[0]);
-  const Real t38 = state.z[0] * (s0 * state.z[0]);
-  const Real t44 = t30 * diagonalbv2_y - (t37 - w1_z * (c1 * w1_z));
-  const Real t47 = t30 * diagonalbv2_x - (t38 + w1_z * (s1 * w1_z));
-  const Real t51 = t22 * (c2 * t44 + s2 * t47);
+  const Real t38 = state.z[0] - t30;
+  const Real t40 = t29 * (c1 * w1_z) + diagonalbv2_y * t38;
+  const Real t42 = t29 * (s1 * w1_z) - diagonalbv2_x * t38;
+  const Real t46 = t22 * (c2 * t40 - s2 * t42);
   const Real h1b_x = c1 * Real(0.5);
   const Real h1b_y = s1 * Real(0.5);
   const Real v1P_x = t26 * h1b_y;
   const Real v1P_y = t26 * h1b_x;
   const Real v1L_z = t26 * Real(0.3333333333333333);
-  const Real T2 = s0 * v1P_x + (v1L_z - (c0 * v1P_y + Real(0.5) * (Real(0.3333333333333333) * (t27 * t27) +
-      (t5 + t26 * v1L_z) + Real(1.6666666666666667))));
+  const Real T2 = Real(0.5) * (t26 * v1L_z + (t5 + Real(0.3333333333333333) * (t27 * t27)) +
+      Real(1.6666666666666667)) + (c0 * v1P_y - (v1L_z + s0 * v1P_x));
   const Real h0b_x = c0 * Real(1.5);
   const Real h0_x = h1b_x - h0b_x;
   const Real diagonal_ll = s2 * s2 + pinax2_x * pinax2_x + Real(1e-18);
@@ -388,16 +388,18 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real diagonal_Tl = diagonal_T / diagonal_l;
   const Real diagonalf_y = s2 * diagonal_Tl;
   const Real rQp0 = h0_x * Real(9.81);
-  const Real ra1o_y = t38 - Real(9.81);
+  const Real rW0w22 = state.z[0] * state.z[0];
+  const Real ra1o_x = c0 * rW0w22;
+  const Real ra1o_y = Real(9.81) - s0 * rW0w22;
   const Real zw_1 = t29 * (state.z[0] + w1_z);
-  const Real rdf1_x = t51 * h1b_y + h1b_x * zw_1;
-  const Real rdf1_y = t51 * h1b_x - h1b_y * zw_1;
-  const Real rdn1_z = t51 * Real(0.3333333333333333);
-  const Real rdn2_z = t22 * (c1 * t44 - s1 * t47) * Real(0.3333333333333333);
-  const Real rQ1_0 = t37 * h1b_y + (h1b_x * ra1o_y + rdn1_z);
-  const Real tau_2_0 = c2 * (diagonalf_y + Real(4.905)) - (pinax2_x * diagonalf_y + rdn2_z);
-  zdot[0] = (rdn1_z - (rQp0 + (c0 * rdf1_y - (s0 * rdf1_x - (t26 * rQ1_0 - t27 * tau_2_0))))) / (T2 *
-      Real(2.0));
+  const Real rdf1_x = t46 * h1b_y - h1b_x * zw_1;
+  const Real rdf1_y = t46 * h1b_x + h1b_y * zw_1;
+  const Real rdn1_z = t46 * Real(0.3333333333333333);
+  const Real rdn2_z = t22 * (c1 * t40 + s1 * t42) * Real(0.3333333333333333);
+  const Real rQ1_0 = rdn1_z + (h1b_x * ra1o_y - h1b_y * ra1o_x);
+  const Real tau_2_0 = rdn2_z - (pinax2_x * diagonalf_y - c2 * (diagonalf_y + Real(4.905)));
+  zdot[0] = -((t27 * tau_2_0 + (t26 * rQ1_0 - (s0 * rdf1_x - (c0 * rdf1_y - (rQp0 + rdn1_z))))) / (T2 *
+      Real(2.0)));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -420,17 +422,16 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real diagonalbv2_x = s2 * t30;
   const Real diagonalbv2_y = c2 * t30;
   const Real w1_z = state.z[0] - t29;
-  const Real t37 = state.z[0] * (c0 * state.z[0]);
-  const Real t38 = state.z[0] * (s0 * state.z[0]);
-  const Real t44 = w1_z * (c1 * w1_z) - (t37 - t30 * diagonalbv2_y);
-  const Real t47 = w1_z * (s1 * w1_z) + (t38 - t30 * diagonalbv2_x);
-  const Real t58 = t22 * (c2 * t44 - s2 * t47) - t26 * zdot[0];
+  const Real t38 = state.z[0] - t30;
+  const Real t40 = t29 * (c1 * w1_z) + diagonalbv2_y * t38;
+  const Real t42 = t29 * (s1 * w1_z) - diagonalbv2_x * t38;
+  const Real t53 = t22 * (c2 * t40 - s2 * t42) + t26 * zdot[0];
   const Real h1b_x = c1 * Real(0.5);
   const Real h1b_y = s1 * Real(0.5);
   const Real h0b_x = c0 * Real(1.5);
   const Real h0_x = h1b_x - h0b_x;
   const Real J0 = t5 + Real(1.6666666666666667);
-  const Real diagonal_ll = pinax2_x * pinax2_x + (s2 * s2 + Real(1e-18));
+  const Real diagonal_ll = s2 * s2 + pinax2_x * pinax2_x + Real(1e-18);
   const Real diagonal_l = detail::square_root(diagonal_ll);
   const Real diagonal_rate = diagonalbv2_x / diagonal_l;
   const Real diagonal_e = diagonal_l - Real(1.4142135623730951);
@@ -439,16 +440,17 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real diagonalf_y = s2 * diagonal_Tl;
   const Real aQp0 = h0_x * Real(9.81);
   const Real adn0_z = zdot[0] * J0;
-  const Real aa1o_x = t37 + s0 * zdot[0];
-  const Real aa1o_y = t38 - (Real(9.81) + c0 * zdot[0]);
+  const Real aW0w22 = state.z[0] * state.z[0];
+  const Real aa1o_x = s0 * zdot[0] + c0 * aW0w22;
+  const Real aa1o_y = c0 * zdot[0] + (Real(9.81) - s0 * aW0w22);
   const Real zw_1 = t29 * (state.z[0] + w1_z);
-  const Real adf1_x = t58 * h1b_y + h1b_x * zw_1;
-  const Real adf1_y = t58 * h1b_x - h1b_y * zw_1;
-  const Real adn1_z = t58 * Real(0.3333333333333333);
-  const Real adn2_z = (t22 * (c1 * t44 + s1 * t47) - t27 * zdot[0]) * Real(0.3333333333333333);
-  const Real aQ1_0 = adn1_z + (h1b_y * aa1o_x + (zdot[0] * Real(0.3333333333333333) + h1b_x * aa1o_y));
-  const Real tau_2_0 = c2 * (diagonalf_y + Real(4.905)) - (pinax2_x * diagonalf_y + adn2_z);
-  tau[0] = t27 * tau_2_0 - (t26 * aQ1_0 - (s0 * adf1_x - (c0 * adf1_y - (adn0_z - (aQp0 - adn1_z)))));
+  const Real adf1_x = t53 * h1b_y - h1b_x * zw_1;
+  const Real adf1_y = t53 * h1b_x + h1b_y * zw_1;
+  const Real adn1_z = t53 * Real(0.3333333333333333);
+  const Real adn2_z = (t22 * (c1 * t40 + s1 * t42) + t27 * zdot[0]) * Real(0.3333333333333333);
+  const Real aQ1_0 = h1b_x * aa1o_y - (zdot[0] * Real(0.3333333333333333) + (h1b_y * aa1o_x - adn1_z));
+  const Real tau_2_0 = adn2_z - (pinax2_x * diagonalf_y - c2 * (diagonalf_y + Real(4.905)));
+  tau[0] = -(adn1_z + (aQp0 - (adn0_z + (c0 * adf1_y - (s0 * adf1_x - (t26 * aQ1_0 + t27 * tau_2_0))))));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -464,8 +466,8 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real t21 = Real(1.0) / (s1 * c2 + c1 * s2);
   const Real t28 = t21 * (c2 * pinbx1_y - pinbx1_x * s2) * state.z[0];
   const Real t29 = t4 * t21 * state.z[0];
-  const Real v1o_x = s0 * state.z[0];
   const Real v1o_y = c0 * state.z[0];
+  const Real v1o_x = s0 * state.z[0];
   const Real J0 = t5 + Real(1.6666666666666667);
   const Real v0L_z = state.z[0] * J0;
   const Real v1L_z = t28 * Real(0.3333333333333333);
@@ -595,19 +597,18 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real diagonalbv2_x = s2 * t30;
   const Real diagonalbv2_y = c2 * t30;
   const Real w1_z = state.z[0] - t29;
-  const Real ra1o_x = state.z[0] * (c0 * state.z[0]);
-  const Real t38 = state.z[0] * (s0 * state.z[0]);
-  const Real t44 = t30 * diagonalbv2_y - (ra1o_x - w1_z * (c1 * w1_z));
-  const Real t47 = t30 * diagonalbv2_x - (t38 + w1_z * (s1 * w1_z));
-  const Real t51 = t22 * (c2 * t44 + s2 * t47);
-  const Real t55 = t22 * (c1 * t44 - s1 * t47);
+  const Real t38 = state.z[0] - t30;
+  const Real t40 = t29 * (c1 * w1_z) + diagonalbv2_y * t38;
+  const Real t42 = t29 * (s1 * w1_z) - diagonalbv2_x * t38;
+  const Real t46 = t22 * (c2 * t40 - s2 * t42);
+  const Real t50 = t22 * (c1 * t40 + s1 * t42);
   const Real h1b_x = c1 * Real(0.5);
   const Real h1b_y = s1 * Real(0.5);
   const Real v1P_x = t26 * h1b_y;
   const Real v1P_y = t26 * h1b_x;
   const Real v1L_z = t26 * Real(0.3333333333333333);
-  const Real T2 = s0 * v1P_x + (v1L_z - (c0 * v1P_y + Real(0.5) * (Real(0.3333333333333333) * (t27 * t27) +
-      (t5 + t26 * v1L_z) + Real(1.6666666666666667))));
+  const Real T2 = Real(0.5) * (t26 * v1L_z + (t5 + Real(0.3333333333333333) * (t27 * t27)) +
+      Real(1.6666666666666667)) + (c0 * v1P_y - (v1L_z + s0 * v1P_x));
   const Real h0b_x = c0 * Real(1.5);
   const Real h0_x = h1b_x - h0b_x;
   const Real diagonal_ll = s2 * s2 + pinax2_x * pinax2_x + Real(1e-18);
@@ -618,25 +619,27 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real diagonal_Tl = diagonal_T / diagonal_l;
   const Real diagonalf_y = s2 * diagonal_Tl;
   const Real rQp0 = h0_x * Real(9.81);
-  const Real ra1o_y = t38 - Real(9.81);
+  const Real rW0w22 = state.z[0] * state.z[0];
+  const Real ra1o_x = c0 * rW0w22;
+  const Real ra1o_y = Real(9.81) - s0 * rW0w22;
   const Real zw_1 = t29 * (state.z[0] + w1_z);
-  const Real rdf1_x = t51 * h1b_y + h1b_x * zw_1;
-  const Real rdf1_y = t51 * h1b_x - h1b_y * zw_1;
-  const Real rdn1_z = t51 * Real(0.3333333333333333);
-  const Real rdn2_z = t55 * Real(0.3333333333333333);
-  const Real rQ1_0 = ra1o_x * h1b_y + (h1b_x * ra1o_y + rdn1_z);
-  const Real t120 = pinax2_x * diagonalf_y - c2 * (diagonalf_y + Real(4.905));
-  const Real tau_2_0 = rdn2_z + t120;
-  const Real t129 = (rdn1_z - (rQp0 + (c0 * rdf1_y - (s0 * rdf1_x - (t26 * rQ1_0 + t27 * tau_2_0))))) / (T2 *
+  const Real rdf1_x = t46 * h1b_y - h1b_x * zw_1;
+  const Real rdf1_y = t46 * h1b_x + h1b_y * zw_1;
+  const Real rdn1_z = t46 * Real(0.3333333333333333);
+  const Real rdn2_z = t50 * Real(0.3333333333333333);
+  const Real rQ1_0 = rdn1_z + (h1b_x * ra1o_y - h1b_y * ra1o_x);
+  const Real t118 = pinax2_x * diagonalf_y - c2 * (diagonalf_y + Real(4.905));
+  const Real tau_2_0 = rdn2_z - t118;
+  const Real t127 = (t27 * tau_2_0 + (t26 * rQ1_0 - (s0 * rdf1_x - (c0 * rdf1_y - (rQp0 + rdn1_z))))) / (T2 *
       Real(2.0));
-  const Real ra1o_x_2 = ra1o_x + s0 * t129;
-  const Real ra1o_y_2 = ra1o_y - c0 * t129;
-  const Real rdn2_z_2 = Real(0.3333333333333333) * (t55 - t27 * t129);
-  const Real rQ1_0_2 = h1b_y * ra1o_x_2 + (h1b_x * ra1o_y_2 - Real(0.3333333333333333) * (t26 * t129 - (t51 +
-      t129)));
-  const Real tau_2_0_2 = t120 + rdn2_z_2;
-  lambda[0] = t22 * (c2 * rQ1_0_2 + c1 * tau_2_0_2);
-  lambda[1] = t22 * (s2 * rQ1_0_2 - s1 * tau_2_0_2);
+  const Real ra1o_x_2 = ra1o_x - s0 * t127;
+  const Real ra1o_y_2 = ra1o_y - c0 * t127;
+  const Real rdn2_z_2 = Real(0.3333333333333333) * (t50 - t27 * t127);
+  const Real rQ1_0_2 = Real(0.3333333333333333) * (t127 + (t46 - t26 * t127)) + (h1b_x * ra1o_y_2 - h1b_y *
+      ra1o_x_2);
+  const Real tau_2_0_2 = t118 - rdn2_z_2;
+  lambda[0] = -(t22 * (c2 * rQ1_0_2 - c1 * tau_2_0_2));
+  lambda[1] = -(t22 * (s2 * rQ1_0_2 + s1 * tau_2_0_2));
 }
 
 template <class Real> JOURDAIN_FUNCTION

@@ -41,10 +41,9 @@ class Graph {
       }
   }
 
-  JacobianEntries eliminate(EliminationOrder order) {
-    const auto forward = static_cast<std::size_t>(order.forward * static_cast<double>(count_));
-    for (std::size_t k = 0; k < forward; ++k) remove(k);
-    for (std::size_t k = count_; k-- > forward;) remove(k);
+  JacobianEntries eliminate(const Surroundings& surroundings) {
+    for (const std::uint32_t v : elimination_order(builder_.program(), count_, operands_, surroundings))
+      remove(v);
     JacobianEntries entries;
     for (std::size_t r = 0; r < rows_; ++r)
       for (const auto& [operand, partial] : operands_[row(r)])
@@ -341,16 +340,16 @@ class Graph {
   std::map<std::size_t, Signed> some_;
   std::size_t count_, columns_ = 0, rows_;
   std::vector<bool> is_held_;
-  std::vector<std::map<std::size_t, Signed>> operands_;  // of each vertex, with the partial derivative by it
+  std::vector<Partials> operands_;  // of each vertex
   std::vector<std::set<std::size_t>> users_;
 };
 
 }  // namespace
 
 JacobianEntries differentiate(Builder& builder, const std::vector<Signed>& values,
-                              const std::vector<Seed>& seeds, EliminationOrder order,
-                              const std::vector<Signed>& held) {
-  return Graph(builder, values, seeds, held).eliminate(order);
+                              const std::vector<Seed>& seeds, const std::vector<Signed>& held,
+                              const Surroundings& surroundings) {
+  return Graph(builder, values, seeds, held).eliminate(surroundings);
 }
 
 }  // namespace jourdain::ir

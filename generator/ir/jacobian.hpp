@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ir/builder.hpp"
+#include "ir/elimination_choice.hpp"
 
 namespace jourdain::ir {
 
@@ -20,20 +21,14 @@ struct Seed {
 /// Entries that are not zero whatever the state, by row and column.
 using JacobianEntries = std::map<std::pair<std::size_t, std::size_t>, Signed>;
 
-/// In which order the intermediate values leave the graph; the result is the same, the operations are not. The
-/// first ones of the program leave operands first (forward mode on sparse columns), then the others results
-/// first (reverse mode on sparse rows). Choosing the cheapest value next (Markowitz) took 5 to 15 % more on
-/// the robot arms.
-struct EliminationOrder {
-  double forward = 0;  ///< share of the values that leave operands first, 0 … 1
-};
-
 /// ∂values/∂columns. Every value of the builder's program between leaf and result is a vertex whose edges carry local
 /// partial derivatives; removing a vertex joins its operands to its users by the chain rule, until only columns and
-/// rows are left (Griewank, Walther: Evaluating Derivatives, chapter 9). New operations go into `builder`. Values that
-/// are `held` are leaves here: they change as their seeds say, not as what they are computed from.
+/// rows are left (Griewank, Walther: Evaluating Derivatives, chapter 9). The result does not depend on the order in
+/// which vertices leave, the operations do: it is looked for by trying (ir/elimination_search.hpp). New operations go
+/// into `builder`. Values that are `held` are leaves here: they change as their seeds say, not as what they are
+/// computed from.
 JacobianEntries differentiate(Builder& builder, const std::vector<Signed>& values,
-                              const std::vector<Seed>& seeds, EliminationOrder order,
-                              const std::vector<Signed>& held = {});
+                              const std::vector<Seed>& seeds, const std::vector<Signed>& held = {},
+                              const Surroundings& surroundings = {});
 
 }  // namespace jourdain::ir

@@ -15,6 +15,21 @@ SymmetricFactors::SymmetricFactors(Builder& builder, std::vector<Column> M)
   }
 }
 
+SymmetricFactors SymmetricFactors::as_leaves(Builder& builder, std::size_t first, Column& values) const {
+  const auto leaf = [&](Signed value) {
+    values.push_back(value);
+    return builder.leaf(LeafKind::kHeld, first + values.size() - 1);
+  };
+  std::vector<Column> L = L_;
+  Column inverse_D = inverse_D_;
+  for (std::size_t k = 0; k < L.size(); ++k) {
+    inverse_D[k] = leaf(inverse_D[k]);
+    for (std::size_t i = 0; i < k; ++i)
+      L[k][i] = builder_.is_literal(L[k][i], 0) ? builder.literal(0) : leaf(L[k][i]);
+  }
+  return {builder, std::move(L), std::move(inverse_D)};
+}
+
 Column SymmetricFactors::lowered(Column x) const {
   for (std::size_t k = x.size(); k-- > 0;)
     for (std::size_t i = k; i-- > 0;) x[i] = builder_.subtract(x[i], builder_.multiply(L_[k][i], x[k]));

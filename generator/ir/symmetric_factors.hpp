@@ -16,6 +16,9 @@ class SymmetricFactors {
   /// `M` full, by row.
   SymmetricFactors(Builder& builder, std::vector<Column> M);
 
+  /// Factors of which each entry that is not zero is a leaf of `builder`, numbered from `first`; `values` gets them.
+  SymmetricFactors as_leaves(Builder& builder, std::size_t first, Column& values) const;
+
   const Column& inverse_D() const { return inverse_D_; }
 
   /// L⁻ᵀ x.
@@ -26,6 +29,9 @@ class SymmetricFactors {
   Column solved(const Column& x) const { return raised(lowered(x)); }
 
  private:
+  SymmetricFactors(Builder& builder, std::vector<Column> L, Column inverse_D)
+      : builder_(builder), L_(std::move(L)), inverse_D_(std::move(inverse_D)) {}
+
   Builder& builder_;
   std::vector<Column> L_;
   Column inverse_D_;

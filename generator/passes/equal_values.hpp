@@ -7,11 +7,14 @@
 #include <span>
 #include <vector>
 
+#include "ir/fingerprints.hpp"
 #include "passes/definition.hpp"
 #include "passes/exact_values.hpp"
-#include "passes/fingerprints.hpp"
 
 namespace jourdain::passes {
+
+using ir::Fingerprint;
+using ir::Residue;
 
 /// Looks up values by residues that do not tell a value from its negative.
 class ResidueIndex {

@@ -1,6 +1,6 @@
 #include "passes/exact_values.hpp"
 
-#include "passes/scramble.hpp"
+#include "ir/scramble.hpp"
 
 namespace jourdain::passes {
 
@@ -13,7 +13,7 @@ ExactValues::ExactValues(const ir::Program& program, std::uint64_t sample)
 
 ScaledReal ExactValues::computed(const Node& node) const {
   if (node.op != ir::Op::kLeaf) return ir::computed(node, values_);
-  return 0.5 + unit_of(scrambled(seed_of_leaf(node), sample_));
+  return 0.5 + ir::unit_of(ir::scrambled(ir::seed_of_leaf(node), sample_));
 }
 
 const ScaledReal& ExactValues::of(ValueId id) {

@@ -106,4 +106,16 @@ Optimised optimise(Module module, const std::vector<std::string>& switched_off, 
   return result;
 }
 
+std::size_t remaining_operations(const Program& program) {
+  Module module;
+  module.functions = {program};
+  return ir::count_operations(optimise_once(std::move(module)).functions[0]).arithmetic();
+}
+
+std::size_t emitted_operations(const Program& program) {
+  Module module;
+  module.functions = {program};
+  return ir::count_operations(optimise(std::move(module)).module.functions[0]).arithmetic();
+}
+
 }  // namespace jourdain::passes

@@ -56,4 +56,10 @@ ir::Module optimise_once(ir::Module module);
 
 std::size_t arithmetic(const ir::Module& module);
 
+/// Operations of a program after optimise_once.
+std::size_t remaining_operations(const ir::Program& program);
+
+/// Operations of a program after all passes.
+std::size_t emitted_operations(const ir::Program& program);
+
 }  // namespace jourdain::passes

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "passes/scramble.hpp"
+#include "ir/scramble.hpp"
 #include "support/function_derivatives.hpp"
 
 namespace jourdain::passes {
@@ -38,8 +38,8 @@ double power_of_ten(int exponent) {
 }  // namespace
 
 double SampledRounding::sampled(const Node& leaf, std::size_t sample) {
-  const std::uint64_t bits = scrambled(seed_of_leaf(leaf), sample), more = scrambled(bits, 1);
-  const double sign = more % 2 == 0 ? 1 : -1, size = 0.5 + unit_of(bits), unit = unit_of(more);
+  const std::uint64_t bits = ir::scrambled(ir::seed_of_leaf(leaf), sample), more = ir::scrambled(bits, 1);
+  const double sign = more % 2 == 0 ? 1 : -1, size = 0.5 + ir::unit_of(bits), unit = ir::unit_of(more);
   const bool is_position = leaf.leaf == LeafKind::kPosition;
   if (leaf.leaf == LeafKind::kParameter || leaf.leaf == LeafKind::kConstant) {
     if (sample == 2) return unit < 0.3 ? 0 : size;

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "lowering/cheapest_elimination.hpp"
+#include "passes/pipeline.hpp"
 #include "programs/kinematic_programs.hpp"
 #include "programs/tree_functions.hpp"
 
@@ -37,7 +37,7 @@ void ClosedSystem::choose(const std::vector<loops::ConstraintPrograms>& list) {
   for (std::size_t k = 0; k < list.size() && list.size() > 1; ++k) {
     constraints_ = list[k];
     const std::size_t operations =
-        lowering::remaining_operations(loop_program(system_, FunctionId::kForwardDynamics));
+        passes::remaining_operations(loop_program(system_, FunctionId::kForwardDynamics));
     if (k == 0 || operations < fewest) {
       best = k;
       fewest = operations;

@@ -5,20 +5,17 @@
 #include <algorithm>
 #include <optional>
 
-#include "dynamics/outputs.hpp"
 #include "ir/compose.hpp"
+#include "ir/fingerprints.hpp"
 #include "ir/symmetric_factors.hpp"
-#include "lowering/cheapest_elimination.hpp"
-#include "lowering/lower.hpp"
-#include "passes/fingerprints.hpp"
+#include "passes/cheapest.hpp"
+#include "passes/pipeline.hpp"
 #include "passes/rewrite.hpp"
 #include "programs/held_values.hpp"
 
 namespace jourdain::programs {
 
-using dynamics::Equations;
 using ir::Builder;
-using ir::EliminationOrder;
 using ir::FunctionId;
 using ir::JacobianEntries;
 using ir::LeafKind;
@@ -46,15 +43,21 @@ struct Columns {
 using ir::Column;
 using Matrix = std::vector<Column>;  // by row
 
+/// How accelerations are differentiated.
+enum class Way {
+  kEquations,  ///< the equations of motion, then solved with the factors of M; with multipliers those that these solve
+  kAccelerations  ///< what solves them: −M⁻¹ r with constant factors; with multipliers what they are computed by
+};
+
 /// One program under construction.
 class Assembly {
  public:
-  /// By the equations with multipliers where there are some and `by_equations` says so.
-  Assembly(const DerivativeSources& sources, DerivativeTerms terms, EliminationOrder order, bool by_equations)
+  Assembly(const DerivativeSources& sources, DerivativeTerms terms, Way way, std::optional<double> forward)
       : sources_(sources),
-        constrained_(by_equations && sources.constrained ? &*sources.constrained : nullptr),
+        constrained_(way == Way::kEquations && sources.constrained ? &*sources.constrained : nullptr),
+        way_(way),
         terms_(terms),
-        order_(order),
+        forward_(forward),
         columns_{sources.facts.velocities.size(), sources.facts.states.size(), sources.facts.carried.size(),
                  sources.facts.inputs.size(), sources.facts.time.any()} {}
 
@@ -104,11 +107,14 @@ class Assembly {
   bool is_zero(Signed value) const { return builder_.is_literal(value, 0); }
 
   /// Copies a program into this builder; accelerations are those of `zdot_` where that is not empty.
-  Column insert(const Program& program) {
-    return ir::insert(builder_, program, [this](LeafKind kind, std::size_t i) {
-      const bool given = kind == LeafKind::kAcceleration && !zdot_.empty();
-      return given ? std::optional(zdot_[i]) : std::nullopt;
-    });
+  Column insert(const Program& program) { return ir::insert(builder_, program, leaf_values()); }
+
+  ir::LeafValue leaf_values() const {
+    return [this](LeafKind kind, std::size_t i) -> std::optional<Signed> {
+      if (kind == LeafKind::kHeld && i >= first_factor()) return factors_[i - first_factor()];
+      if (kind == LeafKind::kAcceleration && !zdot_.empty()) return zdot_[i];
+      return std::nullopt;
+    };
   }
 
   Matrix mass_matrix() {
@@ -135,7 +141,7 @@ class Assembly {
     const std::vector<ir::Seed> list = seeds(apart);
     const Column equations = ir::insert(apart, constrained_->equations);
     const JacobianEntries slopes =
-        held_points(apart, sources_.searches, list, order_).differentiated(apart, equations, list, order_);
+        held_points(apart, sources_.searches, list, alone()).differentiated(apart, equations, list, alone());
     const std::size_t n = columns_.velocities;
     const auto instead = [n](const Column& of) {
       return [&of, n](LeafKind kind, std::size_t i) -> std::optional<Signed> {
@@ -165,7 +171,7 @@ class Assembly {
     const std::size_t first = columns_.time_column() + 1;
     for (std::size_t i = 0; by_acceleration && i < columns_.velocities; ++i)
       list.push_back({builder.leaf(LeafKind::kAcceleration, i), first + i, builder.literal(1)});
-    HeldValues held = held_points(builder, sources_.searches, list, order_);
+    HeldValues held = held_points(builder, sources_.searches, list, alone());
     if (constrained_) {
       const Column motion = ir::insert(builder, constrained_->motion);
       JacobianEntries changes;
@@ -175,7 +181,21 @@ class Assembly {
                Column(motion.begin() + static_cast<std::ptrdiff_t>(columns_.velocities), motion.end()),
                changes);
     }
-    return moved(builder, held.differentiated(builder, outputs, std::move(list), order_));
+    return moved(builder, held.differentiated(builder, outputs, std::move(list), surroundings()));
+  }
+
+  /// Nothing but how an order is chosen.
+  ir::Surroundings alone() const {
+    ir::Surroundings result;
+    result.forward = forward_;
+    return result;
+  }
+
+  /// What is here already, and what stands for accelerations and factors.
+  ir::Surroundings surroundings() const {
+    ir::Surroundings result = ir::within(builder_.program(), leaf_values());
+    result.forward = forward_;
+    return result;
   }
 
   /// Values of `builder` as values of this builder.
@@ -223,8 +243,13 @@ class Assembly {
       changes.erase(changes.lower_bound({columns_.velocities, 0}), changes.end());
       return moved(builder, changes);
     }
-    const JacobianEntries r = differentiated(sources_.residual);
     const ir::SymmetricFactors M(builder_, mass_matrix());
+    return way_ == Way::kAccelerations ? solved_and_differentiated(M) : differentiated_and_solved(M);
+  }
+
+  /// ∂r/∂column by column, solved.
+  JacobianEntries differentiated_and_solved(const ir::SymmetricFactors& M) {
+    const JacobianEntries r = differentiated(sources_.residual);
     JacobianEntries J;
     for (std::size_t c = 0; c <= columns_.time_column(); ++c) {
       Column b(columns_.velocities, builder_.literal(0));
@@ -236,6 +261,20 @@ class Assembly {
     }
     return J;
   }
+
+  /// −M⁻¹ r with constant factors of M, by all columns: elimination may go through the solution in any order.
+  JacobianEntries solved_and_differentiated(const ir::SymmetricFactors& M) {
+    Builder apart;  // where the factors are leaves
+    const ir::SymmetricFactors given = M.as_leaves(apart, first_factor(), factors_);
+    Column forces;
+    for (const Signed r : ir::insert(apart, sources_.residual)) forces.push_back(-r);
+    const Column change = given.solved(forces);
+    for (std::size_t i = 0; i < change.size(); ++i) apart.output("v", static_cast<int>(i), -1, change[i]);
+    return differentiated(passes::remove_dead_code(apart.finish("changes")));
+  }
+
+  /// Leaves before it are found by searches.
+  std::size_t first_factor() const { return sources_.searches.found.outputs.size(); }
 
   /// The upper half of A: displacements follow velocities; those of a quaternion turn with the body, δθ̇ = δω − ω × δθ.
   /// What is carried along has the velocity that it has.
@@ -285,7 +324,7 @@ class Assembly {
   /// Without entries of matrices that are 0 for all arguments, however they were derived: what is not given is 0.
   Program finish(FunctionId function) {
     Program program = passes::remove_dead_code(builder_.finish(name_of(function)));
-    const std::optional<std::vector<passes::Fingerprint>> values = passes::fingerprints(program);
+    const std::optional<std::vector<ir::Fingerprint>> values = ir::fingerprints(program);
     if (!values) return program;
     std::erase_if(program.outputs, [&](const ir::Output& output) {
       return output.column >= 0 && (*values)[output.value.value].is_zero();
@@ -295,18 +334,13 @@ class Assembly {
 
   const DerivativeSources& sources_;
   const ConstrainedMotion* constrained_;
+  Way way_;
   DerivativeTerms terms_;
-  EliminationOrder order_;
+  std::optional<double> forward_;
   Columns columns_;
   Builder builder_;
-  Column zdot_;
+  Column zdot_, factors_;
 };
-
-std::vector<lowering::Target> targets(const char* name, const std::vector<dynamics::Ex>& values) {
-  std::vector<lowering::Target> list;
-  for (std::size_t i = 0; i < values.size(); ++i) list.push_back({name, static_cast<int>(i), -1, values[i]});
-  return list;
-}
 
 }  // namespace
 
@@ -315,57 +349,30 @@ bool any_derivatives(const std::vector<FunctionInfo>& functions) {
                      [](const FunctionInfo& function) { return function.holds_derivatives; });
 }
 
-DerivativeSources tree_sources(const model::Mechanism& mechanism,
-                               const dynamics::DerivationOptions& options) {
-  dynamics::DerivationOptions plain = options;
-  plain.planar = false;
-  plain.from_links = {};
-  plain.articulated.clear();  // M is factorised for the derivatives anyway
-  plain.for_derivatives = true;
-  const Equations equations = dynamics::derive_equations(mechanism, plain);
-  const auto lowered = [&](const std::vector<dynamics::Ex>& values, const char* name, const char* program) {
-    return lowering::lower(equations.statements, targets(name, values), program);
-  };
-  DerivativeSources sources;
-  sources.residual = lowered(equations.residual, "r", "residual");
-  sources.load = lowered(equations.load, "v", "values");
-  sources.zdot = lowered(equations.zdot, "v", "values");
-  sources.outputs = lowered(dynamics::output_entries(equations), "v", "values");
-  for (const std::vector<dynamics::Ex>& row : equations.M)
-    sources.mass_rows.push_back(lowered(row, "v", "values"));
-  sources.facts = scene_facts(mechanism);
-  sources.position_seeds = [tangent = sources.facts.tangent](Builder& builder, std::size_t) {
-    return lowering::displacement_seeds(builder, tangent);
-  };
-  return sources;
-}
-
 namespace {
 
 Program derivative_program(const DerivativeSources& sources, FunctionId function, DerivativeTerms terms,
-                           EliminationOrder order, bool by_equations) {
-  Assembly assembly(sources, terms, order, by_equations);
-  if (function == FunctionId::kResidualDerivatives) return assembly.residual_derivatives();
-  if (function == FunctionId::kForwardDynamicsDerivatives) return assembly.forward_dynamics_derivatives();
-  JD_CHECK(function == FunctionId::kLinearize, "no derivatives for '{}'", name_of(function));
-  return assembly.linearize();
+                           Way way) {
+  return passes::cheapest([&](const ir::Surroundings& by) {
+    Assembly assembly(sources, terms, way, by.forward);
+    if (function == FunctionId::kResidualDerivatives) return assembly.residual_derivatives();
+    if (function == FunctionId::kForwardDynamicsDerivatives) return assembly.forward_dynamics_derivatives();
+    JD_CHECK(function == FunctionId::kLinearize, "no derivatives for '{}'", name_of(function));
+    return assembly.linearize();
+  });
 }
 
-/// By the operations that the multipliers are computed in, or by the equations that they solve, whichever takes fewer.
+/// Whichever way takes fewer operations.
 Program cheapest_program(const DerivativeSources& sources, FunctionId function, DerivativeTerms terms) {
-  constexpr std::size_t kLarge = 10000;  // operations from which on equations take fewer
-  const auto cheapest = [&](bool by_equations) {
-    return lowering::cheapest([&](EliminationOrder order) {
-      return derivative_program(sources, function, terms, order, by_equations);
-    });
-  };
-  if (!sources.constrained) return cheapest(false);
-  Program by_equations = cheapest(true);
-  if (lowering::remaining_operations(by_equations) >= kLarge) return by_equations;
-  Program by_operations = cheapest(false);
+  constexpr std::size_t kLarge = 10000;  // operations from which on the equations take fewer
+  const auto program = [&](Way way) { return derivative_program(sources, function, terms, way); };
+  Program by_equations = program(Way::kEquations);
+  if (!sources.constrained && function == FunctionId::kResidualDerivatives) return by_equations;
+  if (passes::remaining_operations(by_equations) >= kLarge) return by_equations;
+  Program by_accelerations = program(Way::kAccelerations);
   const bool is_fewer =
-      lowering::emitted_operations(by_equations) < lowering::emitted_operations(by_operations);
-  return is_fewer ? by_equations : by_operations;
+      passes::emitted_operations(by_equations) <= passes::emitted_operations(by_accelerations);
+  return is_fewer ? by_equations : by_accelerations;
 }
 
 }  // namespace

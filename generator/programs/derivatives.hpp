@@ -1,15 +1,9 @@
 // Programs of the functions that hold derivatives: Jacobians of the equations of motion, by elimination on the program.
 #pragma once
 
-#include <functional>
-#include <optional>
 #include <vector>
 
-#include "dynamics/equations.hpp"
-#include "ir/program.hpp"
-#include "loops/rows/search_programs.hpp"
-#include "lowering/cheapest_elimination.hpp"
-#include "model/mechanism.hpp"
+#include "programs/derivative_sources.hpp"
 #include "programs/functions.hpp"
 
 namespace jourdain::programs {
@@ -20,40 +14,13 @@ enum class DerivativeTerms {
   kApplied,  ///< those of springs, dampers and other applied forces: where stiffness comes from
 };
 
-/// M ż + Gᵀ λ = k̄ − q̄, G ż + γ = 0 with multipliers λ of some rows.
-struct ConstrainedMotion {
-  ir::Program motion;     ///< ("zdot", k), ("lambda", i)
-  ir::Program equations;  ///< ("r", k), ("c", i): what is zero then, with ż and λ as leaves
-  ir::Program
-      change;  ///< ("zdot", k), ("lambda", i): their changes by those of r (leaves ż) and c (leaves λ)
-};
-
-/// What is differentiated: the equations M ż = k̄ − q̄ as programs over their own coordinates.
-struct DerivativeSources {
-  ir::Program residual;                ///< r = M ż − k̄ + q̄, with ż as leaves
-  ir::Program load;                    ///< of q̄ all but gravity; kApplied
-  ir::Program zdot;                    ///< M⁻¹ (k̄ − q̄)
-  ir::Program outputs;                 ///< numbers of all outputs, with ż as leaves
-  std::vector<ir::Program> mass_rows;  ///< the entries of one row of M each
-  ir::Program carried_rates;           ///< velocities of the coordinates that are carried along
-  SceneFacts facts;
-  /// How position leaves depend on the displacements and, beyond that, on time: the column after the last
-  /// velocity, input.
-  std::function<std::vector<ir::Seed>(ir::Builder&, std::size_t time_column)> position_seeds;
-  loops::SearchPrograms searches;                ///< points in them that are looked for
-  std::optional<ConstrainedMotion> constrained;  ///< with multipliers
-};
-
 /// One program for each of `functions` that holds derivatives or is made for them; the others are passed over.
 /// Positions are differentiated by the displacements of model::Tangent. With r(y, z, a, u, t) = M a − k̄ + q̄
-/// and a = ż, ∂ż = −M⁻¹ ∂r at a = ż: no derivative of the factorisation is taken. Of some orders of
-/// elimination the one with the fewest operations is chosen.
+/// and a = ż, ∂ż = −M⁻¹ ∂r at a = ż: no derivative of the factorisation is taken. Orders of
+/// elimination are looked for that take few operations.
 std::vector<ir::Program> derivative_programs(const DerivativeSources& sources,
                                              const std::vector<FunctionInfo>& functions,
                                              DerivativeTerms terms);
-
-/// Those of a tree.
-DerivativeSources tree_sources(const model::Mechanism& mechanism, const dynamics::DerivationOptions& options);
 
 bool any_derivatives(const std::vector<FunctionInfo>& functions);
 

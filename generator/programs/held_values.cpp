@@ -26,16 +26,16 @@ void HeldValues::add(const Builder& builder, const Column& candidates, const Jac
 }
 
 JacobianEntries HeldValues::differentiated(Builder& builder, const Column& of, std::vector<Seed> leaves,
-                                           ir::EliminationOrder order) const {
+                                           const ir::Surroundings& surroundings) const {
   leaves.insert(leaves.end(), seeds.begin(), seeds.end());
-  return ir::differentiate(builder, of, leaves, order, values);
+  return ir::differentiate(builder, of, leaves, values, surroundings);
 }
 
 HeldValues held_points(Builder& builder, const loops::SearchPrograms& searches,
-                       const std::vector<Seed>& leaves, ir::EliminationOrder order) {
+                       const std::vector<Seed>& leaves, const ir::Surroundings& surroundings) {
   const Column found = ir::insert(builder, searches.found);
   HeldValues held;
-  held.add(builder, found, loops::changes_of_found(builder, searches, found, leaves, order));
+  held.add(builder, found, loops::changes_of_found(builder, searches, found, leaves, surroundings));
   return held;
 }
 

@@ -21,11 +21,12 @@ struct HeldValues {
 
   /// ∂values/∂columns, with seeds of leaves.
   ir::JacobianEntries differentiated(ir::Builder& builder, const ir::Column& values,
-                                     std::vector<ir::Seed> leaves, ir::EliminationOrder order) const;
+                                     std::vector<ir::Seed> leaves,
+                                     const ir::Surroundings& surroundings) const;
 };
 
 HeldValues held_points(ir::Builder& builder, const loops::SearchPrograms& searches,
-                       const std::vector<ir::Seed>& leaves, ir::EliminationOrder order);
+                       const std::vector<ir::Seed>& leaves, const ir::Surroundings& surroundings);
 
 /// Entries as outputs, in their order.
 ir::Program jacobian_program(ir::Builder& builder, const ir::JacobianEntries& entries);

@@ -6,6 +6,7 @@
 #include "loops/rows/regular_rows.hpp"
 #include "loops/treatments/dependence.hpp"
 #include "loops/treatments/projection.hpp"
+#include "lowering/displacements.hpp"
 #include "passes/rewrite.hpp"
 #include "programs/closed_system.hpp"
 #include "programs/constrained_equations.hpp"

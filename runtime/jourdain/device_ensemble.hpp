@@ -19,7 +19,7 @@ namespace jourdain {
 namespace detail {
 
 template <class Part, class Real>
-constexpr std::size_t numbers_of() {
+JOURDAIN_FUNCTION constexpr std::size_t numbers_of() {
   static_assert(std::is_trivially_copyable_v<Part>, "numbers alone");
   static_assert(std::is_empty_v<Part> || sizeof(Part) % sizeof(Real) == 0, "numbers alone");
   return std::is_empty_v<Part> ? 0 : sizeof(Part) / sizeof(Real);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "package/project.hpp"
@@ -40,17 +41,22 @@ std::string output_of_host(const std::string& source, const std::string& program
   return output_of({program});
 }
 
+/// What a model in generated/ and its type of numbers are to PROGRAM.
+std::vector<std::string> flags_of(const std::string& model, const std::string& real) {
+  return {"-I",
+          kRoot + "/runtime",
+          "-I",
+          kRoot + "/generated/" + model,
+          fmt::format("-DKERNELS=\"{}_kernels.hpp\"", model),
+          fmt::format("-DMODEL={}::Model", model),
+          "-DREAL=" + real};
+}
+
 /// Of a model whose files are in generated/: its coordinates and what is trusted, in all digits.
 void expect_host_bits(const std::string& model, const std::string& real) {
   SCOPED_TRACE(model + " in " + real);
   const support::TemporaryFolder folder;
-  const std::vector<std::string> flags = {"-I",
-                                          kRoot + "/runtime",
-                                          "-I",
-                                          kRoot + "/generated/" + model,
-                                          fmt::format("-DKERNELS=\"{}_kernels.hpp\"", model),
-                                          fmt::format("-DMODEL={}::Model", model),
-                                          "-DREAL=" + real};
+  const std::vector<std::string> flags = flags_of(model, real);
   const std::string device = output_in_halves(kPrograms + "/device.cpp", folder.path() + "/device", flags);
   const std::string host = output_of_host(kPrograms + "/device.cpp", folder.path() + "/host", flags);
   EXPECT_EQ(device, host);
@@ -69,6 +75,27 @@ TEST(DevicePrograms, HaveTheBitsOfTheHost) {
 TEST(DevicePrograms, ReadTables) { expect_host_bits("wind_turbine", "float"); }
 
 TEST(DevicePrograms, CloseLoops) { expect_host_bits("four_bar", "double"); }
+
+/// Debian's compiler of NVIDIA is no part of what tests need.
+TEST(DevicePrograms, AreCompiledByNvccWithoutWarnings) {
+  if (support::run_process({"sh", "-c", "command -v nvcc"}).status != 0) GTEST_SKIP() << "no nvcc";
+  for (const auto& [model, real] : {std::pair("wind_turbine", "float"), std::pair("four_bar", "double")}) {
+    SCOPED_TRACE(model);
+    const support::TemporaryFolder folder;
+    std::vector<std::string> command = {"nvcc",
+                                        "-x",
+                                        "cu",
+                                        "-std=c++17",
+                                        "--Werror",
+                                        "all-warnings",
+                                        "-o",
+                                        folder.path() + "/device",
+                                        kPrograms + "/device.cpp"};
+    const std::vector<std::string> flags = flags_of(model, real);
+    command.insert(command.end(), flags.begin(), flags.end());
+    output_of(command);
+  }
+}
 
 TEST(DevicePrograms, WantTheirHeaderFirst) {
   const support::TemporaryFolder folder;

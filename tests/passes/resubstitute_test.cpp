@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "ir/builder.hpp"
-#include "passes/prime_field.hpp"
+#include "ir/prime_field.hpp"
 #include "passes/random_program.hpp"
 #include "passes/rewrite.hpp"
 
@@ -107,7 +107,7 @@ TEST(Resubstitute, TellsNumbersApartThatAreTheSameInItsField) {
   constexpr double kSize = 0x1p61;
   Scene s;
   s.give(s.plus(s.x, s.number(kSize)));
-  s.give(s.plus(s.x, s.number(kSize - double(Residue::kPrime))));
+  s.give(s.plus(s.x, s.number(kSize - double(ir::Residue::kPrime))));
   expect_operations(s, 2);
 }
 

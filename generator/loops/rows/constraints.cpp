@@ -5,17 +5,17 @@
 
 #include "ir/compose.hpp"
 #include "loops/rows/row_derivatives.hpp"
-#include "lowering/cheapest_elimination.hpp"
 #include "lowering/lower.hpp"
 #include "model/coordinates.hpp"
 #include "model/loop_kinds.hpp"
+#include "passes/cheapest.hpp"
+#include "passes/pipeline.hpp"
 #include "passes/rewrite.hpp"
 #include "support/matrix_index.hpp"
 
 namespace jourdain::loops {
 
 using ir::Builder;
-using ir::EliminationOrder;
 using ir::LeafKind;
 using ir::Program;
 using ir::Signed;
@@ -213,7 +213,7 @@ class Lowered {
 std::vector<Program> in_order(Program one, std::optional<Program> other) {
   std::vector<Program> list = {std::move(one)};
   if (!other) return list;
-  const bool is_cheaper = lowering::remaining_operations(*other) < lowering::remaining_operations(list[0]);
+  const bool is_cheaper = passes::remaining_operations(*other) < passes::remaining_operations(list[0]);
   list.insert(is_cheaper ? list.begin() : list.end(), std::move(*other));
   return list;
 }
@@ -233,12 +233,13 @@ std::vector<ConstraintPrograms> constraint_programs(const model::Mechanism& mech
   programs.searches = {lowered.found(), lowered.misfits()};
   const RowPrograms rows = {lowered.values(Held::kLeaves), lowered.velocities(Held::kLeaves),
                             lowered.leading(), programs.searches};
-  const std::vector<Program> jacobians = in_order(
-      lowering::cheapest([&](EliminationOrder o) { return differentiated_jacobian(tangent, rows, o); }),
-      lowered.jacobian());
-  const std::vector<Program> rates =
-      in_order(lowering::cheapest([&](EliminationOrder o) { return differentiated_rates(tangent, rows, o); }),
-               lowered.rates());
+  const std::vector<Program> jacobians = in_order(passes::cheapest([&](const ir::Surroundings& by) {
+                                                    return differentiated_jacobian(tangent, rows, by);
+                                                  }),
+                                                  lowered.jacobian());
+  const std::vector<Program> rates = in_order(
+      passes::cheapest([&](const ir::Surroundings& by) { return differentiated_rates(tangent, rows, by); }),
+      lowered.rates());
   std::vector<ConstraintPrograms> list;
   for (const Program& jacobian : jacobians)
     for (const Program& rate : rates) {

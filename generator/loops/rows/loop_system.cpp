@@ -1,7 +1,7 @@
 #include "loops/rows/loop_system.hpp"
 
 #include "ir/compose.hpp"
-#include "lowering/cheapest_elimination.hpp"
+#include "lowering/displacements.hpp"
 #include "support/matrix_index.hpp"
 
 namespace jourdain::loops {

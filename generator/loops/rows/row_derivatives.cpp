@@ -5,14 +5,13 @@
 #include <vector>
 
 #include "ir/compose.hpp"
-#include "lowering/cheapest_elimination.hpp"
+#include "lowering/displacements.hpp"
 #include "passes/rewrite.hpp"
 #include "support/matrix_index.hpp"
 
 namespace jourdain::loops {
 
 using ir::Builder;
-using ir::EliminationOrder;
 using ir::JacobianEntries;
 using ir::LeafKind;
 using ir::Program;
@@ -24,8 +23,9 @@ namespace {
 /// A builder that holds g and differentiates it.
 class Differentiation {
  public:
-  Differentiation(const model::Tangent& tangent, const RowPrograms& rows, EliminationOrder order)
-      : tangent_(tangent), order_(order), rows_(rows), g_(ir::insert(builder_, rows.value)) {
+  Differentiation(const model::Tangent& tangent, const RowPrograms& rows,
+                  const ir::Surroundings& surroundings)
+      : tangent_(tangent), surroundings_(surroundings), rows_(rows), g_(ir::insert(builder_, rows.value)) {
     const std::size_t n = tangent.scalars.size() + 3 * tangent.quaternions.size();
     const std::vector<Signed> rates = ir::insert(builder_, rows.leading);
     for (std::size_t k = 0; k < rates.size(); ++k)
@@ -34,7 +34,7 @@ class Differentiation {
     std::vector<Seed> seeds = lowering::displacement_seeds(builder_, tangent);
     add_time(seeds, n);
     velocities_ = n;
-    G_ = ir::differentiate(builder_, g_, seeds, order);
+    G_ = ir::differentiate(builder_, g_, seeds, {}, surroundings_);
     add_velocities(rows.velocities);
   }
 
@@ -57,9 +57,9 @@ class Differentiation {
     }
     std::vector<Seed> path = path_seeds();
     const std::vector<Signed> held = held_points();
-    for (const auto& [at, move] : changes_of_found(builder_, rows_.searches, held, path, order_))
+    for (const auto& [at, move] : changes_of_found(builder_, rows_.searches, held, path, surroundings_))
       path.push_back({held[at.first], at.second, move});
-    const JacobianEntries along = ir::differentiate(builder_, rate, path, order_);
+    const JacobianEntries along = ir::differentiate(builder_, rate, path, {}, surroundings_);
     for (std::size_t r = 0; r < rate.size(); ++r) {
       builder_.output("rate", static_cast<int>(r), -1, rate[r]);
       const auto it = along.find({r, 0});
@@ -86,7 +86,7 @@ class Differentiation {
     std::vector<Seed> seeds;
     for (std::size_t k = 0; k < velocities_; ++k)
       seeds.push_back({builder_.leaf(LeafKind::kVelocity, k), k, builder_.literal(1)});
-    const JacobianEntries entries = ir::differentiate(builder_, moving, seeds, order_);
+    const JacobianEntries entries = ir::differentiate(builder_, moving, seeds, {}, surroundings_);
     const auto row = [&](std::size_t k) { return support::subscript(velocities.outputs[k].row); };
     for (const auto& [at, value] : entries) G_[{row(at.first), at.second}] = value;
     for (std::size_t k = 0; k < resting.size(); ++k)
@@ -133,7 +133,7 @@ class Differentiation {
   }
 
   const model::Tangent& tangent_;
-  EliminationOrder order_;
+  const ir::Surroundings& surroundings_;
   const RowPrograms& rows_;
   Builder builder_;
   std::vector<Signed> g_;
@@ -145,12 +145,13 @@ class Differentiation {
 }  // namespace
 
 Program differentiated_jacobian(const model::Tangent& tangent, const RowPrograms& rows,
-                                EliminationOrder order) {
-  return Differentiation(tangent, rows, order).jacobian();
+                                const ir::Surroundings& surroundings) {
+  return Differentiation(tangent, rows, surroundings).jacobian();
 }
 
-Program differentiated_rates(const model::Tangent& tangent, const RowPrograms& rows, EliminationOrder order) {
-  return Differentiation(tangent, rows, order).rates();
+Program differentiated_rates(const model::Tangent& tangent, const RowPrograms& rows,
+                             const ir::Surroundings& surroundings) {
+  return Differentiation(tangent, rows, surroundings).rates();
 }
 
 }  // namespace jourdain::loops

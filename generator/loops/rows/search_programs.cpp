@@ -13,14 +13,14 @@ using ir::Signed;
 
 ir::JacobianEntries changes_of_found(ir::Builder& builder, const SearchPrograms& searches,
                                      const std::vector<Signed>& found, const std::vector<ir::Seed>& seeds,
-                                     ir::EliminationOrder order) {
+                                     const ir::Surroundings& surroundings) {
   if (searches.is_empty()) return {};
   // Where what is found is a leaf: as a value it may be one that misfits depend on otherwise, too.
   const std::vector<Signed> values = ir::insert(builder, searches.misfits);
   std::vector<Signed> misfits;
   for (std::size_t k = 0; k < values.size(); ++k)
     if (searches.misfits.outputs[k].name == "misfit") misfits.push_back(values[k]);
-  const JacobianEntries slopes = ir::differentiate(builder, misfits, seeds, order);
+  const JacobianEntries slopes = ir::differentiate(builder, misfits, seeds, {}, surroundings);
   JacobianEntries moves;
   for (std::size_t k = 0; k < values.size(); ++k) {
     const ir::Output& output = searches.misfits.outputs[k];

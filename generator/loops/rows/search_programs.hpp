@@ -20,6 +20,6 @@ struct SearchPrograms {
 /// How the numbers `found` change with the columns of `seeds`, as their misfits stay at zero: by number and column.
 ir::JacobianEntries changes_of_found(ir::Builder& builder, const SearchPrograms& searches,
                                      const std::vector<ir::Signed>& found, const std::vector<ir::Seed>& seeds,
-                                     ir::EliminationOrder order);
+                                     const ir::Surroundings& surroundings);
 
 }  // namespace jourdain::loops

@@ -2,13 +2,14 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <vector>
 
+#include "ir/prime_field.hpp"
 #include "ir/program.hpp"
-#include "passes/prime_field.hpp"
 
-namespace jourdain::passes {
+namespace jourdain::ir {
 
 /// A value at random points. Leaves are independent random residues, literals the numbers that they stand for. The
 /// sine and cosine of an angle are 2t/(1 + t²) and (1 − t²)/(1 + t²) with a random t, opposite angles having opposite
@@ -36,6 +37,9 @@ Fingerprint operator-(const Fingerprint& a, const Fingerprint& b);
 Fingerprint operator*(const Fingerprint& a, const Fingerprint& b);
 
 /// Of all values; none where the program divides by what is always 0 or holds a literal that is not finite.
-std::optional<std::vector<Fingerprint>> fingerprints(const ir::Program& program);
+/// Leaves for which `leaf` has a value have that one.
+using LeafFingerprint = std::function<std::optional<Fingerprint>(LeafKind, std::size_t index)>;
+std::optional<std::vector<Fingerprint>> fingerprints(const Program& program,
+                                                     const LeafFingerprint& leaf = {});
 
-}  // namespace jourdain::passes
+}  // namespace jourdain::ir

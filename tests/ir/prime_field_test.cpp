@@ -1,5 +1,5 @@
 // The field that programs are evaluated in: doubles are the fractions that they are.
-#include "passes/prime_field.hpp"
+#include "ir/prime_field.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-namespace jourdain::passes {
+namespace jourdain::ir {
 namespace {
 
 TEST(PrimeField, AddsAndMultipliesDoublesAsTheFractionsThatTheyAre) {
@@ -81,4 +81,4 @@ TEST(PrimeField, InvertsManyAsEach) {
 }
 
 }  // namespace
-}  // namespace jourdain::passes
+}  // namespace jourdain::ir

@@ -5,7 +5,7 @@
 
 #include "ir/program.hpp"
 
-namespace jourdain::passes {
+namespace jourdain::ir {
 
 /// One step of splitmix64 (Steele, Lea and Flood 2014) from a state that `word` was mixed into.
 inline std::uint64_t scrambled(std::uint64_t state, std::uint64_t word) {
@@ -16,7 +16,7 @@ inline std::uint64_t scrambled(std::uint64_t state, std::uint64_t word) {
 }
 
 /// What a leaf is drawn from; the same in all programs.
-inline std::uint64_t seed_of_leaf(const ir::Node& leaf) {
+inline std::uint64_t seed_of_leaf(const Node& leaf) {
   return scrambled(scrambled(0, static_cast<std::uint64_t>(leaf.leaf)), leaf.index);
 }
 
@@ -25,4 +25,4 @@ inline double unit_of(std::uint64_t scrambled_bits) {
   return static_cast<double>(scrambled_bits >> 11) * 0x1p-53;
 }
 
-}  // namespace jourdain::passes
+}  // namespace jourdain::ir

@@ -1,14 +1,11 @@
-#include "passes/fingerprints.hpp"
+#include "ir/fingerprints.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "passes/scramble.hpp"
+#include "ir/scramble.hpp"
 
-namespace jourdain::passes {
-
-using ir::Node;
-using ir::Op;
+namespace jourdain::ir {
 
 namespace {
 
@@ -74,7 +71,7 @@ Fingerprint evaluated(const Node& node, const Fingerprint& a, const Fingerprint&
     case Op::kCos:
       return sine_or_cosine(node.op, a);
     default:
-      return random_element(seed_of(node.op, a, ir::operand_count(node.op) == 2 ? seed_of(node.op, b) : 0));
+      return random_element(seed_of(node.op, a, operand_count(node.op) == 2 ? seed_of(node.op, b) : 0));
   }
 }
 
@@ -92,20 +89,22 @@ Fingerprint operator*(const Fingerprint& a, const Fingerprint& b) {
   return pointwise(a, b, [](Residue x, Residue y) { return x * y; });
 }
 
-std::optional<std::vector<Fingerprint>> fingerprints(const ir::Program& program) {
+std::optional<std::vector<Fingerprint>> fingerprints(const Program& program, const LeafFingerprint& leaf) {
   std::vector<Fingerprint> values;
   values.reserve(program.nodes.size());
   for (const Node& node : program.nodes) {
-    const int operands = ir::operand_count(node.op);
+    const int operands = operand_count(node.op);
     const Fingerprint a = operands >= 1 ? values[node.a.value] : Fingerprint(),
                       b = operands == 2 ? values[node.b.value] : Fingerprint();
     if (node.op == Op::kLiteral && !std::isfinite(node.literal)) return {};
     if (node.op == Op::kDivide &&
         std::any_of(b.at.begin(), b.at.end(), [](Residue r) { return r.is_zero(); }))
       return {};
-    values.push_back(evaluated(node, a, b));
+    const std::optional<Fingerprint> given =
+        leaf && node.op == Op::kLeaf ? leaf(node.leaf, node.index) : std::nullopt;
+    values.push_back(given ? *given : evaluated(node, a, b));
   }
   return values;
 }
 
-}  // namespace jourdain::passes
+}  // namespace jourdain::ir

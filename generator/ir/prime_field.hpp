@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <vector>
 
-namespace jourdain::passes {
+namespace jourdain::ir {
 
 /// An integer modulo p = 2^61 − c. −1 is no square there (p ≡ 3 modulo 4): 1 + t² is never 0. c has digits of π:
 /// numbers that people write (powers of 2 and of 10, the largest integers) are far from multiples of p, near which they
@@ -96,4 +96,4 @@ inline std::vector<Residue> inverses(std::vector<Residue> residues) {
   return residues;
 }
 
-}  // namespace jourdain::passes
+}  // namespace jourdain::ir
