@@ -44,29 +44,12 @@ std::vector<std::uint32_t> prefix_first(std::size_t inner, std::size_t prefix) {
   return order;
 }
 
-/// Whether values are taken where signs say so. Which factors stand inside such choices depends on the order, and with
-/// it where derivatives have values (ir/jacobian.cpp): nothing but prefixes is tried then.
+}  // namespace
+
 bool takes_by_signs(const Program& program) {
   return std::any_of(program.nodes.begin(), program.nodes.end(), [](const Node& node) {
     return node.op == Op::kWhereNegative || node.op == Op::kWhereNotNegative;
   });
-}
-
-}  // namespace
-
-bool is_made_with_the_model(LeafKind kind, std::size_t /*index*/) {
-  return kind == LeafKind::kParameter || kind == LeafKind::kConstant;
-}
-
-std::vector<bool> fixed_values(const Program& program,
-                               const std::function<bool(LeafKind, std::size_t)>& is_fixed) {
-  std::vector<bool> fixed;
-  for (const Node& node : program.nodes) {
-    const int operands = operand_count(node.op);
-    fixed.push_back(operands == 0 ? node.op == Op::kLiteral || is_fixed(node.leaf, node.index)
-                                  : fixed[node.a.value] && (operands == 1 || fixed[node.b.value]));
-  }
-  return fixed;
 }
 
 Surroundings within(const Program& program, const LeafValue& leaf) {
@@ -80,8 +63,7 @@ Surroundings within(const Program& program, const LeafValue& leaf) {
     const Fingerprint& found = values[given->value.value];
     return given->negative ? -found : found;
   };
-  result.is_fixed = [leaf, fixed = fixed_values(program, is_made_with_the_model)](LeafKind kind,
-                                                                                  std::size_t i) {
+  result.is_fixed = [leaf, fixed = fixed_values(program)](LeafKind kind, std::size_t i) {
     const std::optional<Signed> given = leaf(kind, i);
     return given ? fixed[given->value.value] : is_made_with_the_model(kind, i);
   };

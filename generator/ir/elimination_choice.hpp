@@ -9,11 +9,9 @@
 
 #include "ir/compose.hpp"
 #include "ir/fingerprints.hpp"
+#include "ir/fixed_values.hpp"
 
 namespace jourdain::ir {
-
-/// Parameters and what follows from them alone.
-bool is_made_with_the_model(LeafKind kind, std::size_t index);
 
 /// What the program is part of, so that an order of elimination is found that takes few operations there.
 struct Surroundings {
@@ -28,9 +26,9 @@ struct Surroundings {
 /// Within a program where what `leaf` gives stands for leaves.
 Surroundings within(const Program& program, const LeafValue& leaf);
 
-/// Which values depend on nothing but literals and leaves that are fixed.
-std::vector<bool> fixed_values(const Program& program,
-                               const std::function<bool(LeafKind, std::size_t)>& is_fixed);
+/// Whether values are taken where signs say so. Which factors stand inside such choices depends on the order, and with
+/// it where derivatives have values (ir/jacobian.cpp): nothing but prefixes is tried then.
+bool takes_by_signs(const Program& program);
 
 /// The partial derivatives of a vertex by its operands.
 using Partials = std::map<std::size_t, Signed>;

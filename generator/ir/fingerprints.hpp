@@ -36,9 +36,10 @@ Fingerprint operator+(const Fingerprint& a, const Fingerprint& b);
 Fingerprint operator-(const Fingerprint& a, const Fingerprint& b);
 Fingerprint operator*(const Fingerprint& a, const Fingerprint& b);
 
-/// Of all values; none where the program divides by what is always 0 or holds a literal that is not finite.
-/// Leaves for which `leaf` has a value have that one.
+/// What stands for a leaf; nothing: what it has by itself.
 using LeafFingerprint = std::function<std::optional<Fingerprint>(LeafKind, std::size_t index)>;
+
+/// Of all values; none where the program divides by what is always 0 or holds a literal that is not finite.
 std::optional<std::vector<Fingerprint>> fingerprints(const Program& program,
                                                      const LeafFingerprint& leaf = {});
 

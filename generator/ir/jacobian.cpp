@@ -295,8 +295,7 @@ class Graph {
         if (operands == 0) return otherwise;
         return of[node.a.value] && (operands == 1 || of[node.b.value]);
       };
-      const bool is_parameter = node.leaf == LeafKind::kParameter || node.leaf == LeafKind::kConstant;
-      fixed_.push_back(holds(fixed_, node.op == Op::kLiteral || is_parameter));
+      fixed_.push_back(holds(fixed_, node.op == Op::kLiteral || is_made_with_the_model(node.leaf)));
       bounds_.push_back(bound(node));
       const bool may_fail =
           (node.op == Op::kDivide && !fixed_[node.b.value] && bounds_[node.b.value] != Bound::kPositive) ||

@@ -3,6 +3,7 @@
 #include <map>
 #include <optional>
 
+#include "ir/fixed_values.hpp"
 #include "passes/rewrite.hpp"
 
 namespace jourdain::passes {
@@ -19,7 +20,7 @@ namespace {
 class Splitting {
  public:
   explicit Splitting(const Program& program)
-      : program_(program), fixed_(constant_values(program)), copy_(program) {}
+      : program_(program), fixed_(ir::fixed_values(program)), copy_(program) {}
 
   Program run() {
     return remove_dead_code(copy_.run([this](ValueId id) -> std::optional<Signed> {

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "ir/fixed_values.hpp"
 #include "passes/rewrite.hpp"
 
 namespace jourdain::passes {
@@ -19,7 +20,7 @@ class Terms {
   explicit Terms(const Program& program)
       : program_(program),
         uses_(ir::use_counts(program)),
-        constant_(constant_values(program)),
+        constant_(ir::fixed_values(program)),
         copy_(program) {}
 
   Program run() {

@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include "ir/fixed_values.hpp"
 #include "passes/constant_terms.hpp"
 #include "passes/rewrite.hpp"
 
@@ -26,7 +27,7 @@ class Grouping {
   explicit Grouping(const Program& program)
       : program_(program),
         uses_(ir::use_counts(program)),
-        constant_(constant_values(program)),
+        constant_(ir::fixed_values(program)),
         copy_(program),
         products_(program.nodes.size()) {}
 

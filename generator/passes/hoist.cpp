@@ -3,6 +3,7 @@
 #include <map>
 
 #include "ir/compose.hpp"
+#include "ir/fixed_values.hpp"
 #include "passes/rewrite.hpp"
 
 namespace jourdain::passes {
@@ -47,10 +48,10 @@ class Hoisting {
     for (std::size_t i = 0; i < function.nodes.size(); ++i) {
       const Node& node = function.nodes[i];
       const int operands = ir::operand_count(node.op);
-      const bool fixed = (operands == 0 && (node.op == Op::kLiteral || node.leaf == LeafKind::kParameter ||
-                                            node.leaf == LeafKind::kConstant)) ||
-                         (operands >= 1 && !ir::is_call(node.op) && copy[node.a.value].fixed &&
-                          (operands == 1 || copy[node.b.value].fixed));
+      const bool fixed =
+          (operands == 0 && (node.op == Op::kLiteral || ir::is_made_with_the_model(node.leaf))) ||
+          (operands >= 1 && !ir::is_call(node.op) && copy[node.a.value].fixed &&
+           (operands == 1 || copy[node.b.value].fixed));
       if (fixed)
         copy[i] = {node.op == Op::kLeaf && node.leaf == LeafKind::kConstant
                        ? known_[node.index]

@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 
+#include "ir/fixed_values.hpp"
 #include "passes/equal_values.hpp"
 #include "passes/rewrite.hpp"
 #include "passes/sampled_rounding.hpp"
@@ -91,7 +92,7 @@ class Substitution {
   bool is_fixed(std::size_t i) const {
     const Node& node = program_.nodes[i];
     if (values_[i].definition.kind == Definition::Kind::kOwn && node.op == Op::kLeaf)
-      return node.leaf == ir::LeafKind::kParameter || node.leaf == ir::LeafKind::kConstant;
+      return ir::is_made_with_the_model(node.leaf);
     const auto [a, b] = operands(i);
     return (!a || values_[*a].fixed) && (!b || values_[*b].fixed);
   }

@@ -23,17 +23,6 @@ Program Copy::run(const Rewritten& rewritten, const std::vector<bool>& left_out)
   return builder_.finish(program_.name);
 }
 
-std::vector<bool> constant_values(const Program& program) {
-  std::vector<bool> constant;
-  for (const Node& node : program.nodes) {
-    const int operands = ir::operand_count(node.op);
-    constant.push_back(operands == 0 ? node.op == ir::Op::kLiteral || node.leaf == ir::LeafKind::kParameter ||
-                                           node.leaf == ir::LeafKind::kConstant
-                                     : constant[node.a.value] && (operands == 1 || constant[node.b.value]));
-  }
-  return constant;
-}
-
 std::vector<bool> needed_values(const Program& program) {
   std::vector<bool> needed(program.nodes.size(), false);
   for (const ir::Output& output : program.outputs) needed[output.value.value] = true;

@@ -46,9 +46,6 @@ using Rewriting = std::function<ir::Program(const ir::Program&)>;
 /// makes a pass idempotent.
 ir::Program settled(const ir::Program& program, const Rewriting& rewrite);
 
-/// Marks the values that depend on literals and parameters alone.
-std::vector<bool> constant_values(const ir::Program& program);
-
 /// Marks the values that the outputs need.
 std::vector<bool> needed_values(const ir::Program& program);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ir/fixed_values.hpp"
 #include "ir/scramble.hpp"
 #include "support/function_derivatives.hpp"
 
@@ -41,7 +42,7 @@ double SampledRounding::sampled(const Node& leaf, std::size_t sample) {
   const std::uint64_t bits = ir::scrambled(ir::seed_of_leaf(leaf), sample), more = ir::scrambled(bits, 1);
   const double sign = more % 2 == 0 ? 1 : -1, size = 0.5 + ir::unit_of(bits), unit = ir::unit_of(more);
   const bool is_position = leaf.leaf == LeafKind::kPosition;
-  if (leaf.leaf == LeafKind::kParameter || leaf.leaf == LeafKind::kConstant) {
+  if (ir::is_made_with_the_model(leaf.leaf)) {
     if (sample == 2) return unit < 0.3 ? 0 : size;
     return sample < kAllSizes ? size : size * power_of_ten(static_cast<int>(more / 2 % 13) - 6);
   }

@@ -8,7 +8,7 @@
 #include "ir/compose.hpp"
 #include "ir/fingerprints.hpp"
 #include "ir/symmetric_factors.hpp"
-#include "passes/cheapest.hpp"
+#include "passes/cheapest_elimination.hpp"
 #include "passes/pipeline.hpp"
 #include "passes/rewrite.hpp"
 #include "programs/held_values.hpp"

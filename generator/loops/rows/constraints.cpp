@@ -8,7 +8,7 @@
 #include "lowering/lower.hpp"
 #include "model/coordinates.hpp"
 #include "model/loop_kinds.hpp"
-#include "passes/cheapest.hpp"
+#include "passes/cheapest_elimination.hpp"
 #include "passes/pipeline.hpp"
 #include "passes/rewrite.hpp"
 #include "support/matrix_index.hpp"

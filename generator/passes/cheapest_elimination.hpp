@@ -7,8 +7,8 @@
 
 namespace jourdain::passes {
 
-/// In an order that is looked for; small programs also in some simple orders, since what is looked for counts what the
-/// passes will do roughly.
+/// In an order that is looked for. Small programs are built in some simple orders, too, since the search counts what
+/// the passes will do roughly, and so are those that take values by signs, for which nothing is looked for.
 ir::Program cheapest(const std::function<ir::Program(const ir::Surroundings&)>& build);
 
 }  // namespace jourdain::passes
