@@ -9,6 +9,7 @@
 
 #include "agreement/shared_data.hpp"
 #include "loops/plan/plan.hpp"
+#include "loops/plan/scales.hpp"
 #include "programs/closed_system.hpp"
 #include "programs/loop_functions.hpp"
 #include "properties/consistent_state.hpp"
@@ -26,7 +27,7 @@ using model::OutputKind;
 using Vector = reference::VectorX<long double>;
 
 // Double against long double at regular configurations; relative to the largest number of the kind.
-constexpr double kTolerance = 1e-9;
+constexpr double kTolerance = 1e-11;
 constexpr std::size_t kStates = 4;
 
 /// Five bars with the first one turned at will: one degree of freedom is left, and everything depends on time.
@@ -250,6 +251,23 @@ bool is_regular(const model::Mechanism& mechanism, const LoopState& state) {
   return freedom.rank == freedom.rows && freedom.weakest > 0.05L;
 }
 
+/// The share of multipliers and accelerations that the plan says regularisation may take away: (d/(s + d))^n, s the
+/// smallest singular value of G M^-1 G^T, whose rows are forces.
+double left_out(const model::Mechanism& mechanism, const loops::LoopPlan& plan, const LoopState& state) {
+  using Matrix = reference::MatrixX<long double>;
+  if (plan.treatment != LoopTreatment::kMultipliers) return 0;
+  const Matrix G =
+      reference::DescriptorReference<long double>(mechanism).loop_constraints(state.t, state.y, state.z).G;
+  Matrix S = loops::schur_matrix(mechanism, {state.t, state.y}, G);
+  for (Eigen::Index r = 0; r < S.rows(); ++r) {
+    const long double length = plan.row_length[static_cast<std::size_t>(r)];
+    S.row(r) *= length;
+    S.col(r) *= length;
+  }
+  const long double s = Eigen::JacobiSVD<Matrix>(S).singularValues().tail(1)[0], d = plan.regularisation;
+  return static_cast<double>(std::pow(d / (s + d), plan.corrections + 1));
+}
+
 /// Compares where the treatment is possible; the number of states compared.
 std::size_t compare(model::Mechanism mechanism, LoopTreatment treatment, std::uint64_t seed) {
   mechanism = with_outputs(std::move(mechanism));
@@ -261,17 +279,19 @@ std::size_t compare(model::Mechanism mechanism, LoopTreatment treatment, std::ui
   if (!plan || !states) return 0;
   Outputs outputs(mechanism, *plan);
   std::size_t compared = 0;
+  double share = 0;
   for (const LoopState& state : *states)
     if (is_regular(mechanism, state)) {
       outputs.compare(state);
+      share = std::max(share, left_out(mechanism, *plan, state));
       ++compared;
     }
   if (compared > 0)
-    fmt::print("{:<22} {} {:>9.1e} {:>9.1e}\n", mechanism.name,
+    fmt::print("{:<22} {} {:>9.1e} {:>9.1e} of {:>9.1e}\n", mechanism.name,
                plan->is_reduced() ? "reduced    " : "multipliers", outputs.force_error(),
-               outputs.motion_error());
-  EXPECT_LE(outputs.force_error(), kTolerance) << mechanism.name << ", seed " << seed;
-  EXPECT_LE(outputs.motion_error(), kTolerance) << mechanism.name << ", seed " << seed;
+               outputs.motion_error(), share);
+  EXPECT_LE(outputs.force_error(), kTolerance + 10 * share) << mechanism.name << ", seed " << seed;
+  EXPECT_LE(outputs.motion_error(), kTolerance + 10 * share) << mechanism.name << ", seed " << seed;
   return compared;
 }
 
