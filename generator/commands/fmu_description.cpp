@@ -5,6 +5,7 @@
 #include <tinyxml2.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -174,7 +175,7 @@ class Description {
     if (!number.unit.empty()) set(type, "unit", number.unit);
     if (number.range) {
       set(type, "min", (*number.range)[0]);
-      set(type, "max", (*number.range)[1]);
+      if ((*number.range)[1] < std::numeric_limits<double>::max()) set(type, "max", (*number.range)[1]);
     }
     if (number.role == Role::kInput)
       set(type, "start", number.start.value_or(0));

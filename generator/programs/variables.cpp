@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <set>
 
 #include "model/joint_kinds.hpp"
@@ -81,11 +82,15 @@ class Table {
     for (const Entry& entry : entries_.inputs)
       add_scalar(Role::kInput, entry.name, entry.unit, entry.description).start = {0.0};
     outputs();
-    for (const model::Parameter& parameter : mechanism_.parameters) {
+    const std::set<std::size_t> masses = parameters_that_are_masses();
+    for (std::size_t k = 0; k < mechanism_.parameters.size(); ++k) {
+      const model::Parameter& parameter = mechanism_.parameters[k];
       Variable& variable =
           add_scalar(Role::kParameter, parameter.name, parameter.unit, parameter.description);
       variable.start = {parameter.value};
       variable.range = parameter.range;
+      if (!parameter.range && masses.count(k))
+        variable.range = std::array{0.0, std::numeric_limits<double>::max()};
     }
     constants();
     return std::move(list_);
@@ -127,6 +132,17 @@ class Table {
           entry.coordinate ? &mechanism_.joints[entry.joint->value].coordinates[*entry.coordinate] : nullptr;
       if (role == Role::kPosition && coordinate) variable.range = coordinate->range;
     }
+  }
+
+  /// Alone, as in `mass = "payload"`.
+  std::set<std::size_t> parameters_that_are_masses() const {
+    std::set<std::size_t> result;
+    for (const model::Body& body : mechanism_.bodies) {
+      const std::vector<model::Expression::Node>& nodes = body.mass.nodes();
+      if (nodes.size() == 1 && nodes[0].op == model::Expression::Op::kParameter)
+        result.insert(nodes[0].parameter.value);
+    }
+    return result;
   }
 
   /// Of all states, which begin at entry `first` of the table.

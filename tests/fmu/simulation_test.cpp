@@ -279,6 +279,39 @@ TEST(Start, FollowsWhatIsSetAndClosesLoops) {
   }
 }
 
+TEST(Start, OfAnotherTimeThatMovesWhatTheDescriptionSaysIsLogged) {
+  for (const int version : {2, 3}) {
+    const Fmu fmu(make_fmu("../tests/fmu/pulled_pendulums", version));
+    for (const bool is_exchange : {false, true}) {
+      Instance at_zero(fmu, is_exchange), later(fmu, is_exchange), given(fmu, is_exchange);
+      at_zero.start();
+      EXPECT_TRUE(at_zero.log().empty()) << at_zero.log().back();
+      later.start(1.5);
+      ASSERT_EQ(later.log().size(), 1u);
+      EXPECT_NE(later.log().back().find("start values were moved"), std::string::npos) << later.log().back();
+      ASSERT_EQ(given.enter_initialization(1.5), kOk);
+      for (const char* name : {"left", "right", "left_velocity", "right_velocity"})
+        ASSERT_EQ(given.set(name, later.value(name)), kOk);
+      ASSERT_EQ(given.exit_initialization(), kOk);
+      EXPECT_TRUE(given.log().empty()) << given.log().back();
+    }
+  }
+}
+
+TEST(Parameters, ThatAreMassesAreNotNegative) {
+  for (const int version : {2, 3}) {
+    const Fmu fmu(make_fmu("../tests/fmu/pulled_pendulums", version));
+    EXPECT_EQ(fmu.variable("payload").at("min"), "0");
+    EXPECT_EQ(fmu.variable("payload").count("max"), 0u);
+    Instance instance(fmu, false);
+    instance.start();
+    EXPECT_EQ(instance.set("payload", -1), kError);
+    EXPECT_NE(instance.log().back().find("out of range"), std::string::npos) << instance.log().back();
+    EXPECT_EQ(instance.value("payload"), 1.5);
+    EXPECT_EQ(instance.set("payload", 3), kOk);
+  }
+}
+
 TEST(SavedStates, BringARunBack) {
   for (const int version : {2, 3}) {
     const Fmu fmu(make_fmu("squeezer", version, "--step 1e-05"));
