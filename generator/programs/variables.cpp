@@ -89,8 +89,10 @@ class Table {
           add_scalar(Role::kParameter, parameter.name, parameter.unit, parameter.description);
       variable.start = {parameter.value};
       variable.range = parameter.range;
-      if (!parameter.range && masses.count(k))
-        variable.range = std::array{0.0, std::numeric_limits<double>::max()};
+      if (masses.count(k))
+        variable.range = parameter.range
+                             ? std::array{std::max(0.0, (*parameter.range)[0]), (*parameter.range)[1]}
+                             : std::array{0.0, std::numeric_limits<double>::max()};
     }
     constants();
     return std::move(list_);

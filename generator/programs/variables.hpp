@@ -57,7 +57,7 @@ struct Variable {
   bool is_array = false;             ///< its numbers have subscripts
   std::vector<std::string> numbers;  ///< names of its numbers, row by row
   std::vector<double> start;         ///< at default parameters, row by row; empty: it follows from others
-  std::optional<std::array<double, 2>> range = {};  ///< of values it may have; masses: from 0 on
+  std::optional<std::array<double, 2>> range = {};  ///< of values it may have; masses: none below 0
   std::optional<std::size_t> derivative_of = {};    ///< variable of the table whose rate it is
 };
 

@@ -309,6 +309,10 @@ TEST(Parameters, ThatAreMassesAreNotNegative) {
     EXPECT_NE(instance.log().back().find("out of range"), std::string::npos) << instance.log().back();
     EXPECT_EQ(instance.value("payload"), 1.5);
     EXPECT_EQ(instance.set("payload", 3), kOk);
+    EXPECT_EQ(fmu.variable("ballast").at("min"), "0");
+    EXPECT_EQ(fmu.variable("ballast").at("max"), "3");
+    EXPECT_EQ(instance.set("ballast", -0.5), kError);
+    EXPECT_EQ(instance.set("ballast", 3), kOk);
   }
 }
 
