@@ -260,11 +260,12 @@ Model<Real>::Model(const Parameters& parameters) noexcept {
   c25 = r_steer_x - Real(0.3090169943749474) * r_front_z;
   c26 = r_steer_z + Real(0.9510565162951535) * r_front_z;
   c29 = Real(1.0) / S2b_zz;
-  c30 = Real(0.5) * front_radius;
+  c30 = Real(2.0) * front_radius;
   c31 = rear_radius * Real(0.5);
-  const Real t132 = d_steer + r_front_z_2;
-  c32 = expression_2 - Real(0.3090169943749474) * t132;
-  c33 = Real(0.9510565162951535) * t132;
+  c32 = Real(0.5) * front_radius;
+  const Real t133 = d_steer + r_front_z_2;
+  c33 = expression_2 - Real(0.3090169943749474) * t133;
+  c34 = Real(0.9510565162951535) * t133;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -642,21 +643,19 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t54 = front_contactbd0p_z + front_contactbd0p_z;
   const Real t55 = Real(1.0) / front_contactup;
   const Real t56 = Real(0.5) * t55;
-  const Real t62 = q0r2_x * Real(0.9510565162951535) + q0r2_z * Real(0.3090169943749474);
-  const Real t65 = c2 * t62 + q0r2_y * s2;
-  const Real t66 = t54 * t56;
-  const Real t68 = t66 * model.front_radius;
-  const Real t69 = c2 * t68;
-  const Real t70 = front_contactbd2p_z * t68;
-  const Real t73 = front_contactbx2p_z - t70;
-  const Real t75 = front_contactbx3_x + t69;
-  const Real t76 = front_contactbx2p_x - front_contactbd2p_x * t68;
-  const Real t79 = front_contactbx3_x * t62 + (t65 * t68 - q0r2_y * front_contactbx3_y);
-  const Real q012 = q0d1 * state.y[5];
-  const Real t84 = q0d1 * t48 - (state.y[3] * state.y[3] + (q0d3 * t50 - q022 * Real(0.5)));
-  const Real t86 = t53 * model.rear_radius;
-  const Real t91 = t51 * t86;
-  const Real t95 = q0r2_x * t91;
+  const Real t58 = t53 * model.rear_radius;
+  const Real t59 = t51 * t58;
+  const Real t67 = q0r2_x * Real(0.9510565162951535) + q0r2_z * Real(0.3090169943749474);
+  const Real t69 = q0r2_y * s2 + c2 * t67;
+  const Real t70 = t54 * t56;
+  const Real t72 = t70 * model.front_radius;
+  const Real t79 = q0d2 * t49 - (q0d3 * t50 + (state.y[3] * state.y[3] - q0d1 * t48));
+  const Real t81 = front_contactbx3_x + c2 * t72;
+  const Real t83 = q0r2_x * t59;
+  const Real t86 = front_contactbx2p_x - front_contactbd2p_x * t72;
+  const Real t89 = front_contactbx2p_z - front_contactbd2p_z * t72;
+  const Real t92 = front_contactbx3_x * t67 + (t69 * t72 - q0r2_y * front_contactbx3_y);
+  const Real q012 = state.y[4] * q0d2;
   const Real q033 = state.y[6] * q0d3;
   const Real q003 = q0d3 * state.y[3];
   const Real q0r0_x = Real(1.0) - (q022 + q033);
@@ -665,22 +664,21 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real q0r1_y = t14 + q033;
   const Real q0r1_z = q023 - q001;
   const Real t106 = model.rear_radius * q0r1_y;
-  const Real rear_contactc_y = t91 * q0r1_y;
+  const Real rear_contactc_y = t59 * q0r1_y;
   const Real rear_contactc_z = model.rear_radius * (t17 / rear_contactup);
   const Real rear_contacts1bn0_y = t52 * t106;
   const Real rear_contacts1bn0_z = q0r1_z * rear_contactc_z + q0r2_z * rear_contactc_y;
   const Real t116 = model.rear_radius * q0r0_y;
   const Real q0r0_z = q013 + q002;
-  const Real rear_contactc_x = t91 * q0r0_y;
+  const Real rear_contactc_x = t59 * q0r0_y;
   const Real rear_contacts2bn0_y = t52 * t116;
   const Real rear_contacts2bn0_z = rear_contactc_z * q0r0_z - q0r2_z * rear_contactc_x;
   const Real front_contactbd0p_y = front_contactbd2p_z * q0r1_z - (front_contactbd2p_x * q0r1_x + c2 *
       q0r1_y);
   const Real t132 = model.front_radius * front_contactbd0p_y;
-  const Real front_contactc_y = t66 * t132;
+  const Real front_contactc_y = t70 * t132;
   const Real front_contactc_z = model.front_radius * (t44 / front_contactup);
-  const Real t137 = Real(0.9510565162951535) * q0r0_x;
-  const Real front_contacts1bf2_y = Real(0.3090169943749474) * q0r0_z - t137;
+  const Real front_contacts1bf2_y = Real(0.3090169943749474) * q0r0_z - Real(0.9510565162951535) * q0r0_x;
   const Real front_contacts1bn0_x = q0r1_x * front_contactc_z - q0r2_x * front_contactc_y;
   const Real front_contacts1bn0_y = q0r1_y * front_contactc_z + q0r2_y * front_contactc_y;
   const Real front_contacts1bn0_z = q0r1_z * front_contactc_z + q0r2_z * front_contactc_y;
@@ -691,7 +689,8 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
       (Real(0.3090169943749474) * front_contacts1bn0_x + Real(0.9510565162951535) * front_contacts1bn0_z));
   const Real front_contactbd0p_x = c2 * q0r0_y + s2 * front_contacts1bf2_y;
   const Real t170 = model.front_radius * front_contactbd0p_x;
-  const Real front_contactc_x = t66 * t170;
+  const Real front_contactc_x = t70 * t170;
+  const Real front_contacts2bf2_y = Real(0.3090169943749474) * q0r1_z - Real(0.9510565162951535) * q0r1_x;
   const Real front_contacts2bn0_x = q0r0_x * front_contactc_z - q0r2_x * front_contactc_x;
   const Real front_contacts2bn0_y = q0r0_y * front_contactc_z - q0r2_y * front_contactc_x;
   const Real front_contacts2bn0_z = q0r0_z * front_contactc_z + q0r2_z * front_contactc_x;
@@ -710,31 +709,31 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real h2b_y = c2 * model.front_h_y;
   const Real h2at2_x = Real(0.9510565162951535) * h2b_y;
   const Real h2at2_z = Real(0.3090169943749474) * h2b_y;
-  const Real t222 = Real(0.3090169943749474) * S2b_yz;
-  const Real S2at2r0_y = t222 + Real(0.9510565162951535) * S2b_yy;
-  const Real t225 = Real(0.9510565162951535) * S2b_yz;
-  const Real S2at2r0_z = t225 + Real(0.04326237921249264);
-  const Real S2at2r2_y = t225 - Real(0.3090169943749474) * S2b_yy;
+  const Real t225 = Real(0.3090169943749474) * S2b_yz;
+  const Real S2at2r0_y = t225 + Real(0.9510565162951535) * S2b_yy;
+  const Real t228 = Real(0.9510565162951535) * S2b_yz;
+  const Real S2at2r0_z = t228 + Real(0.04326237921249264);
+  const Real S2at2r2_y = t228 - Real(0.3090169943749474) * S2b_yy;
   const Real h2c_x = h2at2_x + model.c6;
   const Real h2c_z = h2at2_z + model.c7;
-  const Real t240 = h2b_x * model.r_steer_x;
-  const Real S2c_xy = t240 + (Real(0.3090169943749474) * S2b_xz - Real(0.9510565162951535) * S2b_xy);
-  const Real t251 = h2at2_z - model.h_z;
+  const Real t243 = h2b_x * model.r_steer_x;
+  const Real S2c_xy = t243 + (Real(0.3090169943749474) * S2b_xz - Real(0.9510565162951535) * S2b_xy);
+  const Real t254 = h2at2_z - model.h_z;
   const Real S2c_xz = Real(0.3090169943749474) * (S2at2r0_y - model.SR_z) + ((h2at2_x + model.c9) *
-      model.r_steer_z - (Real(0.9510565162951535) * S2at2r0_z - model.r_steer_x * t251)) +
+      model.r_steer_z - (Real(0.9510565162951535) * S2at2r0_z - model.r_steer_x * t254)) +
       Real(25.349999999999998);
   const Real S2c_yy = S2b_xx - Real(0.5002999999999995);
-  const Real t260 = h2b_x * model.r_steer_z;
-  const Real S2c_yz = t260 - (Real(0.3090169943749474) * S2b_xy + Real(0.9510565162951535) * S2b_xz);
+  const Real t263 = h2b_x * model.r_steer_z;
+  const Real S2c_yz = t263 - (Real(0.3090169943749474) * S2b_xy + Real(0.9510565162951535) * S2b_xz);
   const Real S1c_xx = (h2at2_x + model.h_x) * model.c14 + (Real(0.9510565162951535) * S2at2r0_y +
       Real(0.3090169943749474) * (S2at2r0_z + model.SR_x)) + model.c16;
-  const Real S1c_zz = t251 * model.c17 - (Real(0.3090169943749474) * S2at2r2_y + Real(0.9510565162951535) *
-      (t222 - model.c18)) + model.c19;
+  const Real S1c_zz = t254 * model.c17 - (Real(0.3090169943749474) * S2at2r2_y + Real(0.9510565162951535) *
+      (t225 - model.c18)) + model.c19;
   const Real p_7_2l_x = h2b_y * model.r_steer_z;
   const Real p_7_2l_z = h2b_y * model.r_steer_x;
-  const Real p_7_2n_x = t225 - p_7_2l_x + model.c20;
-  const Real p_7_2n_y = t260 * Real(0.9510565162951535) - (S2b_xz + t240 * Real(0.3090169943749474));
-  const Real p_7_2n_z = t222 + p_7_2l_z - model.c21;
+  const Real p_7_2n_x = t228 - p_7_2l_x + model.c20;
+  const Real p_7_2n_y = t263 * Real(0.9510565162951535) - (S2b_xz + t243 * Real(0.3090169943749474));
+  const Real p_7_2n_z = t225 + p_7_2l_z - model.c21;
   const Real p_7_0f_x = front_contactbd0p_x * model.front_h_y;
   const Real p_7_0f_y = front_contactbd0p_y * model.front_h_y;
   const Real p_7_0f_z = front_contactbd0p_z * model.front_h_y;
@@ -742,250 +741,246 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real p_8_3N_y = s2 * Real(0.28);
   const Real p_8_2n_x = Real(0.9510565162951535) * p_8_3N_y;
   const Real p_8_2n_z = Real(0.3090169943749474) * p_8_3N_y;
-  const Real t324 = p_8_2n_z * Real(3.571428571428571);
-  const Real t328 = p_8_3N_x * Real(3.571428571428571);
-  const Real t331 = p_8_2n_x * Real(3.571428571428571);
-  const Real t334 = p_7_2n_z * model.c29;
-  const Real t341 = p_7_2n_y * t334 + (S2c_yz - p_8_3N_x * t324);
-  const Real t344 = p_7_2n_x * t334 - (S2c_xz + p_8_2n_x * t324);
-  const Real t347 = p_7_0f_z * t334 + (q0r2_x * h2b_x - q0r2_y * h2c_x);
-  const Real t350 = p_7_0f_y * t334 - (q0r1_x * h2b_x + q0r1_y * h2c_x);
-  const Real t353 = p_7_0f_x * t334 - (q0r0_x * h2b_x - q0r0_y * h2c_x);
-  const Real t354 = p_7_2n_y * model.c29;
-  const Real t360 = p_7_2n_x * model.c29;
-  const Real t365 = p_7_0f_z * model.c29;
-  const Real t369 = p_7_0f_y * model.c29;
-  const Real t372 = p_7_0f_x * model.c29;
-  const Real t374 = Real(1.0) / (p_7_2n_z * t334 - (p_8_2n_z * t324 + (S2c_yy - S1c_xx)));
-  const Real t375 = t341 * t374;
-  const Real t386 = t344 * t375 - (p_7_2n_x * t354 + (S2c_xy - p_8_2n_x * t328));
-  const Real t390 = t347 * t375 - (p_7_0f_z * t354 + (q0r2_x * h2c_z - q0r2_z * h2c_x));
-  const Real t394 = t350 * t375 - (p_7_0f_y * t354 - (q0r1_x * h2c_z + q0r1_z * h2c_x));
-  const Real t398 = t353 * t375 - (p_7_0f_x * t354 - (q0r0_x * h2c_z + q0r0_z * h2c_x));
-  const Real t399 = t344 * t374;
-  const Real t404 = t347 * t374;
-  const Real t408 = t350 * t374;
-  const Real t411 = t353 * t374;
-  const Real t413 = Real(1.0) / (t341 * t375 - (p_7_2n_y * t354 - (p_8_3N_x * t328 - (S1c_xx + S1c_zz))) +
+  const Real t327 = p_8_2n_z * Real(3.571428571428571);
+  const Real t331 = p_8_3N_x * Real(3.571428571428571);
+  const Real t334 = p_8_2n_x * Real(3.571428571428571);
+  const Real t337 = p_7_2n_z * model.c29;
+  const Real t344 = p_7_2n_y * t337 + (S2c_yz - p_8_3N_x * t327);
+  const Real t347 = p_7_2n_x * t337 - (S2c_xz + p_8_2n_x * t327);
+  const Real t350 = p_7_0f_z * t337 + (q0r2_x * h2b_x - q0r2_y * h2c_x);
+  const Real t353 = p_7_0f_y * t337 - (q0r1_x * h2b_x + q0r1_y * h2c_x);
+  const Real t356 = p_7_0f_x * t337 - (q0r0_x * h2b_x - q0r0_y * h2c_x);
+  const Real t357 = p_7_2n_y * model.c29;
+  const Real t363 = p_7_2n_x * model.c29;
+  const Real t368 = p_7_0f_z * model.c29;
+  const Real t372 = p_7_0f_y * model.c29;
+  const Real t375 = p_7_0f_x * model.c29;
+  const Real t377 = Real(1.0) / (p_7_2n_z * t337 - (p_8_2n_z * t327 + (S2c_yy - S1c_xx)));
+  const Real t378 = t344 * t377;
+  const Real t389 = t347 * t378 - (p_7_2n_x * t357 + (S2c_xy - p_8_2n_x * t331));
+  const Real t393 = t350 * t378 - (p_7_0f_z * t357 + (q0r2_x * h2c_z - q0r2_z * h2c_x));
+  const Real t397 = t353 * t378 - (p_7_0f_y * t357 - (q0r1_x * h2c_z + q0r1_z * h2c_x));
+  const Real t401 = t356 * t378 - (p_7_0f_x * t357 - (q0r0_x * h2c_z + q0r0_z * h2c_x));
+  const Real t402 = t347 * t377;
+  const Real t407 = t350 * t377;
+  const Real t411 = t353 * t377;
+  const Real t414 = t356 * t377;
+  const Real t416 = Real(1.0) / (t344 * t378 - (p_7_2n_y * t357 - (p_8_3N_x * t331 - (S1c_xx + S1c_zz))) +
       Real(0.12));
-  const Real t414 = t386 * t413;
-  const Real t425 = t390 * t414 - (t347 * t399 - (p_7_0f_z * t360 + (q0r2_y * h2c_z - q0r2_z * h2b_x)));
-  const Real t430 = t394 * t414 - (t350 * t399 - (p_7_0f_y * t360 + (q0r1_y * h2c_z - q0r1_z * h2b_x)));
-  const Real t435 = t398 * t414 - (t353 * t399 - (p_7_0f_x * t360 - (q0r0_y * h2c_z + q0r0_z * h2b_x)));
-  const Real t436 = t390 * t413;
-  const Real t440 = t394 * t413;
-  const Real t443 = t398 * t413;
-  const Real t445 = Real(1.0) / (t386 * t414 - (t344 * t399 - (p_7_2n_x * t360 - (p_8_2n_x * t331 + (S2c_yy -
+  const Real t417 = t389 * t416;
+  const Real t428 = t393 * t417 - (t350 * t402 - (p_7_0f_z * t363 + (q0r2_y * h2c_z - q0r2_z * h2b_x)));
+  const Real t433 = t397 * t417 - (t353 * t402 - (p_7_0f_y * t363 + (q0r1_y * h2c_z - q0r1_z * h2b_x)));
+  const Real t438 = t401 * t417 - (t356 * t402 - (p_7_0f_x * t363 - (q0r0_y * h2c_z + q0r0_z * h2b_x)));
+  const Real t439 = t393 * t416;
+  const Real t443 = t397 * t416;
+  const Real t446 = t401 * t416;
+  const Real t448 = Real(1.0) / (t389 * t417 - (t347 * t402 - (p_7_2n_x * t363 - (p_8_2n_x * t334 + (S2c_yy -
       S1c_zz)))));
-  const Real t446 = t425 * t445;
-  const Real t456 = t430 * t446 - (t394 * t436 + (p_7_0f_y * t365 - t350 * t404));
-  const Real t460 = t435 * t446 - (t398 * t436 + (p_7_0f_x * t365 - t353 * t404));
-  const Real t461 = t430 * t445;
-  const Real t464 = t435 * t445;
-  const Real t466 = Real(1.0) / (t425 * t446 - (t390 * t436 + (p_7_0f_z * t365 - t347 * t404)) - Real(94.0));
-  const Real t467 = t456 * t466;
-  const Real t478 = t460 * t467 - (t435 * t461 - (t398 * t440 + (p_7_0f_x * t369 - t353 * t408)));
-  const Real t479 = t460 * t466;
-  const Real t481 = Real(1.0) / (t456 * t467 - (t430 * t461 - (t394 * t440 - (t350 * t408 - (p_7_0f_y * t369 +
+  const Real t449 = t428 * t448;
+  const Real t459 = t433 * t449 - (t397 * t439 + (p_7_0f_y * t368 - t353 * t407));
+  const Real t463 = t438 * t449 - (t401 * t439 + (p_7_0f_x * t368 - t356 * t407));
+  const Real t464 = t433 * t448;
+  const Real t467 = t438 * t448;
+  const Real t469 = Real(1.0) / (t428 * t449 - (t393 * t439 + (p_7_0f_z * t368 - t350 * t407)) - Real(94.0));
+  const Real t470 = t459 * t469;
+  const Real t481 = t463 * t470 - (t438 * t464 - (t401 * t443 + (p_7_0f_x * t372 - t356 * t411)));
+  const Real t482 = t463 * t469;
+  const Real t484 = Real(1.0) / (t459 * t470 - (t433 * t464 - (t397 * t443 - (t353 * t411 - (p_7_0f_y * t372 +
       Real(94.0))))));
-  const Real t482 = t478 * t481;
-  const Real t490 = Real(1.0) / (t478 * t482 - (t460 * t479 - (t435 * t464 - (t398 * t443 - (t353 * t411 -
-      (p_7_0f_x * t372 + Real(94.0)))))));
-  const Real t492 = q0r2_x * model.rear_radius + t95 * t375;
-  const Real t500 = t414 * t492 - (t95 * t399 + (q0r2_y * model.rear_radius + t84 * t91));
-  const Real t507 = t446 * t500 - (t436 * t492 - (Real(1.0) + t95 * t404));
-  const Real t513 = t467 * t507 - (t461 * t500 + (t95 * t408 - t440 * t492));
-  const Real t519 = t482 * t513 - (t479 * t507 - (t464 * t500 + (t95 * t411 - t443 * t492)));
-  const Real t521 = model.rear_radius * q0r0_x + rear_contacts1bn0_z * t375;
-  const Real t530 = t414 * t521 - (rear_contacts1bn0_z * t399 + (t116 + (q0r1_x * rear_contactc_z - q0r2_x *
+  const Real t485 = t481 * t484;
+  const Real t493 = Real(1.0) / (t481 * t485 - (t463 * t482 - (t438 * t467 - (t401 * t446 - (t356 * t414 -
+      (p_7_0f_x * t375 + Real(94.0)))))));
+  const Real t495 = q0r2_x * model.rear_radius + t83 * t378;
+  const Real t503 = t417 * t495 - (t83 * t402 + (t59 * t79 + q0r2_y * model.rear_radius));
+  const Real t510 = t449 * t503 - (t439 * t495 - (Real(1.0) + t83 * t407));
+  const Real t516 = t470 * t510 - (t464 * t503 + (t83 * t411 - t443 * t495));
+  const Real t522 = t485 * t516 - (t482 * t510 - (t467 * t503 + (t83 * t414 - t446 * t495)));
+  const Real t524 = model.rear_radius * q0r0_x + rear_contacts1bn0_z * t378;
+  const Real t533 = t417 * t524 - (rear_contacts1bn0_z * t402 + (t116 + (q0r1_x * rear_contactc_z - q0r2_x *
       rear_contactc_y)));
-  const Real t536 = t446 * t530 + (rear_contacts1bn0_z * t404 - t436 * t521);
-  const Real t542 = t467 * t536 - (t461 * t530 + (rear_contacts1bn0_z * t408 - t440 * t521));
-  const Real t549 = t482 * t542 - (t479 * t536 - (t464 * t530 - (t443 * t521 + (Real(1.0) -
-      rear_contacts1bn0_z * t411))));
-  const Real t551 = model.rear_radius * q0r1_x - rear_contacts2bn0_z * t375;
-  const Real t560 = t414 * t551 + (rear_contacts2bn0_z * t399 + (q0r2_x * rear_contactc_x + (t106 + q0r0_x *
+  const Real t539 = t449 * t533 + (rear_contacts1bn0_z * t407 - t439 * t524);
+  const Real t545 = t470 * t539 - (t464 * t533 + (rear_contacts1bn0_z * t411 - t443 * t524));
+  const Real t552 = t485 * t545 - (t482 * t539 - (t467 * t533 - (t446 * t524 + (Real(1.0) -
+      rear_contacts1bn0_z * t414))));
+  const Real t554 = model.rear_radius * q0r1_x - rear_contacts2bn0_z * t378;
+  const Real t563 = t417 * t554 + (rear_contacts2bn0_z * t402 + (q0r2_x * rear_contactc_x + (t106 + q0r0_x *
       rear_contactc_z)));
-  const Real t566 = t446 * t560 - (rear_contacts2bn0_z * t404 + t436 * t551);
-  const Real t573 = t467 * t566 - (t461 * t560 - (t440 * t551 + (Real(1.0) + rear_contacts2bn0_z * t408)));
-  const Real t579 = t482 * t573 - (t479 * t566 - (t464 * t560 - (rear_contacts2bn0_z * t411 + t443 * t551)));
-  const Real t582 = t79 * t334 + (q0r2_x * t75 - q0r2_y * t76);
-  const Real t591 = t375 * t582 - (t79 * t354 + (q0r2_x * t73 - t76 * t84));
-  const Real t600 = t414 * t591 - (t399 * t582 - (t79 * t360 + (q0r2_y * t73 - t75 * t84)));
-  const Real t608 = t446 * t600 - (t436 * t591 - (t404 * t582 - (Real(1.0) + t79 * t365)));
-  const Real t615 = t467 * t608 - (t461 * t600 - (t440 * t591 + (t79 * t369 - t408 * t582)));
-  const Real t622 = t482 * t615 - (t479 * t608 - (t464 * t600 - (t443 * t591 + (t79 * t372 - t411 * t582))));
-  const Real t630 = front_contacts1bm_z * t334 + (front_contacts1bn3p_x * t324 + (front_contactbx2p_x * q0r0_y
+  const Real t569 = t449 * t563 - (rear_contacts2bn0_z * t407 + t439 * t554);
+  const Real t576 = t470 * t569 - (t464 * t563 - (t443 * t554 + (Real(1.0) + rear_contacts2bn0_z * t411)));
+  const Real t582 = t485 * t576 - (t482 * t569 - (t467 * t563 - (rear_contacts2bn0_z * t414 + t446 * t554)));
+  const Real t585 = t92 * t337 + (q0r2_x * t81 - q0r2_y * t86);
+  const Real t594 = t378 * t585 - (t92 * t357 - (t79 * t86 - q0r2_x * t89));
+  const Real t603 = t417 * t594 - (t402 * t585 - (t92 * t363 - (t79 * t81 - q0r2_y * t89)));
+  const Real t611 = t449 * t603 - (t439 * t594 - (t407 * t585 - (Real(1.0) + t92 * t368)));
+  const Real t618 = t470 * t611 - (t464 * t603 - (t443 * t594 + (t92 * t372 - t411 * t585)));
+  const Real t625 = t485 * t618 - (t482 * t611 - (t467 * t603 - (t446 * t594 + (t92 * t375 - t414 * t585))));
+  const Real t633 = front_contacts1bm_z * t337 + (front_contacts1bn3p_x * t327 + (front_contactbx2p_x * q0r0_y
       + (front_contacts1bn0_z - front_contactbx3_x * q0r0_x)));
-  const Real t641 = t375 * t630 - (front_contacts1bm_z * t354 + (front_contacts1bn3p_x * t328 -
+  const Real t644 = t378 * t633 - (front_contacts1bm_z * t357 + (front_contacts1bn3p_x * t331 -
       (front_contactbx2p_x * q0r0_z + (front_contacts1bn0_y + front_contactbx2p_z * q0r0_x))));
-  const Real t652 = t414 * t641 - (t399 * t630 - (front_contacts1bm_z * t360 + (front_contacts1bn3p_x * t331 -
+  const Real t655 = t417 * t644 - (t402 * t633 - (front_contacts1bm_z * t363 + (front_contacts1bn3p_x * t334 -
       (front_contactbx3_x * q0r0_z + (front_contacts1bn0_x + front_contactbx2p_z * q0r0_y)))));
-  const Real t659 = t446 * t652 - (t436 * t641 + (front_contacts1bm_z * t365 - t404 * t630));
-  const Real t666 = t467 * t659 - (t461 * t652 - (t440 * t641 + (front_contacts1bm_z * t369 - t408 * t630)));
-  const Real t674 = t482 * t666 - (t479 * t659 - (t464 * t652 - (t443 * t641 - (t411 * t630 - (Real(1.0) +
-      front_contacts1bm_z * t372)))));
-  const Real t682 = front_contacts2bm_z * t334 + (front_contacts2bn3p_x * t324 - (front_contactbx2p_x * q0r1_y
+  const Real t662 = t449 * t655 - (t439 * t644 + (front_contacts1bm_z * t368 - t407 * t633));
+  const Real t669 = t470 * t662 - (t464 * t655 - (t443 * t644 + (front_contacts1bm_z * t372 - t411 * t633)));
+  const Real t677 = t485 * t669 - (t482 * t662 - (t467 * t655 - (t446 * t644 - (t414 * t633 - (Real(1.0) +
+      front_contacts1bm_z * t375)))));
+  const Real t685 = front_contacts2bm_z * t337 + (front_contacts2bn3p_x * t327 - (front_contactbx2p_x * q0r1_y
       + (front_contacts2bn0_z + front_contactbx3_x * q0r1_x)));
-  const Real t693 = t375 * t682 - (front_contacts2bm_z * t354 + (front_contacts2bn3p_x * t328 -
+  const Real t696 = t378 * t685 - (front_contacts2bm_z * t357 + (front_contacts2bn3p_x * t331 -
       (front_contactbx2p_x * q0r1_z + (front_contacts2bn0_y + front_contactbx2p_z * q0r1_x))));
-  const Real t704 = t414 * t693 - (t399 * t682 - (front_contacts2bm_z * t360 + (front_contacts2bn3p_x * t331 -
+  const Real t707 = t417 * t696 - (t402 * t685 - (front_contacts2bm_z * t363 + (front_contacts2bn3p_x * t334 -
       (front_contactbx3_x * q0r1_z - (front_contacts2bn0_x + front_contactbx2p_z * q0r1_y)))));
-  const Real t711 = t446 * t704 - (t436 * t693 + (front_contacts2bm_z * t365 - t404 * t682));
-  const Real t719 = t467 * t711 - (t461 * t704 - (t440 * t693 - (t408 * t682 - (Real(1.0) +
-      front_contacts2bm_z * t369))));
-  const Real t726 = t482 * t719 - (t479 * t711 - (t464 * t704 - (t443 * t693 + (front_contacts2bm_z * t372 -
-      t411 * t682))));
-  const Real t739 = t490 * t549;
-  const Real t740 = t481 * t542;
-  const Real t741 = t466 * t536;
-  const Real t742 = t445 * t530;
-  const Real t743 = t413 * t521;
-  const Real t744 = rear_contacts1bn0_z * t374;
-  const Real t755 = t95 * t744 - (t492 * t743 - (t500 * t742 - (t507 * t741 + (t519 * t739 - t513 * t740))));
-  const Real t765 = t490 * t579;
-  const Real t766 = t481 * t573;
-  const Real t767 = t466 * t566;
-  const Real t768 = t445 * t560;
-  const Real t769 = t413 * t551;
-  const Real t770 = rear_contacts2bn0_z * t374;
-  const Real t771 = rear_contacts2bn0_y * Real(8.333333333333334);
-  const Real t782 = t95 * t770 + (t492 * t769 - (t500 * t768 - (t507 * t767 + (t519 * t765 - t513 * t766))));
-  const Real t797 = t490 * t622;
-  const Real t798 = t481 * t615;
-  const Real t799 = t466 * t608;
-  const Real t800 = t445 * t600;
-  const Real t801 = t413 * t591;
-  const Real t802 = t374 * t582;
-  const Real t813 = t95 * t802 - (t492 * t801 - (t500 * t800 - (t507 * t799 + (t519 * t797 - t513 * t798))));
-  const Real t834 = t490 * t674;
-  const Real t835 = t481 * t666;
-  const Real t836 = t466 * t659;
-  const Real t837 = t445 * t652;
-  const Real t838 = t413 * t641;
-  const Real t839 = t374 * t630;
-  const Real t840 = front_contacts1bm_z * model.c29;
-  const Real t851 = t95 * t839 - (t492 * t838 - (t500 * t837 - (t507 * t836 + (t519 * t834 - t513 * t835))));
-  const Real t880 = t490 * t726;
-  const Real t881 = t481 * t719;
-  const Real t882 = t466 * t711;
-  const Real t883 = t445 * t704;
-  const Real t884 = t413 * t693;
-  const Real t885 = t374 * t682;
-  const Real t886 = front_contacts2bm_z * model.c29;
-  const Real t887 = front_contacts2bn3p_x * Real(3.571428571428571);
-  const Real t898 = t95 * t885 - (t492 * t884 - (t500 * t883 - (t507 * t882 + (t519 * t880 - t513 * t881))));
-  const Real t941 = Real(1.0) / (t95 * (t95 * t374) - (t492 * (t413 * t492) - (t500 * (t445 * t500) - (t507 *
-      (t466 * t507) + (t519 * (t490 * t519) - t513 * (t481 * t513))))) + Real(1.8087085566416913e-12));
-  const Real t942 = t755 * t941;
-  const Real t953 = t782 * t941;
-  const Real t961 = t755 * t953 + (rear_contacts1bn0_y * t771 - (rear_contacts1bn0_z * t770 + (t521 * t769 -
-      (t530 * t768 - (t536 * t767 + (t549 * t765 - t542 * t766))))));
-  const Real t963 = t813 * t941;
-  const Real t970 = t755 * t963 - (rear_contacts1bn0_z * t802 - (t521 * t801 - (t530 * t800 - (t536 * t799 +
-      (t549 * t797 - t542 * t798)))));
-  const Real t973 = t851 * t941;
-  const Real t980 = t755 * t973 - (rear_contacts1bn0_z * t839 - (t521 * t838 - (t530 * t837 - (t536 * t836 +
-      (t549 * t834 - t542 * t835)))));
-  const Real t984 = t898 * t941;
-  const Real t991 = t755 * t984 - (rear_contacts1bn0_z * t885 - (t521 * t884 - (t530 * t883 - (t536 * t882 +
-      (t549 * t880 - t542 * t881)))));
-  const Real t996 = Real(1.0) / (t755 * t942 - (rear_contacts1bn0_y * rear_contacts1bn0_y *
-      Real(8.333333333333334) + (rear_contacts1bn0_z * t744 - (t521 * t743 - (t530 * t742 - (t536 * t741 +
-      (t549 * t739 - t542 * t740)))))) - Real(7.806783314072456e-11));
-  const Real t997 = t961 * t996;
-  const Real t1009 = t970 * t996;
-  const Real t1017 = t961 * t1009 - (t782 * t963 - (rear_contacts2bn0_z * t802 + (t551 * t801 - (t560 * t800 -
-      (t566 * t799 + (t579 * t797 - t573 * t798))))));
-  const Real t1019 = t980 * t996;
-  const Real t1027 = t961 * t1019 - (t782 * t973 - (rear_contacts2bn0_z * t839 + (t551 * t838 - (t560 * t837 -
-      (t566 * t836 + (t579 * t834 - t573 * t835))))));
-  const Real t1030 = t991 * t996;
-  const Real t1038 = t961 * t1030 - (t782 * t984 - (rear_contacts2bn0_z * t885 + (t551 * t884 - (t560 * t883 -
-      (t566 * t882 + (t579 * t880 - t573 * t881))))));
-  const Real t1042 = Real(1.0) / (t961 * t997 - (t782 * t953 - (rear_contacts2bn0_y * t771 +
-      (rear_contacts2bn0_z * t770 - (t551 * t769 - (t560 * t768 - (t566 * t767 + (t579 * t765 - t573 *
-      t766))))))) + Real(8.816994788327498e-12));
-  const Real t1043 = t1017 * t1042;
-  const Real t1056 = t1027 * t1042;
-  const Real t1066 = t1017 * t1056 - (t970 * t1019 - (t813 * t973 + (t79 * t840 - (t582 * t839 - (t591 * t838
-      - (t600 * t837 - (t608 * t836 + (t622 * t834 - t615 * t835))))))));
-  const Real t1068 = t1038 * t1042;
-  const Real t1078 = t1017 * t1068 - (t970 * t1030 - (t813 * t984 + (t79 * t886 - (t582 * t885 - (t591 * t884
-      - (t600 * t883 - (t608 * t882 + (t622 * t880 - t615 * t881))))))));
-  const Real t1081 = Real(1.0) / (t1017 * t1043 - (t970 * t1009 - (t813 * t963 + (model.c29 * (t79 * t79) -
-      (t582 * t802 - (t591 * t801 - (t600 * t800 - (t608 * t799 + (t622 * t797 - t615 * t798)))))))) -
+  const Real t714 = t449 * t707 - (t439 * t696 + (front_contacts2bm_z * t368 - t407 * t685));
+  const Real t722 = t470 * t714 - (t464 * t707 - (t443 * t696 - (t411 * t685 - (Real(1.0) +
+      front_contacts2bm_z * t372))));
+  const Real t729 = t485 * t722 - (t482 * t714 - (t467 * t707 - (t446 * t696 + (front_contacts2bm_z * t375 -
+      t414 * t685))));
+  const Real t742 = t493 * t552;
+  const Real t743 = t484 * t545;
+  const Real t744 = t469 * t539;
+  const Real t745 = t448 * t533;
+  const Real t746 = t416 * t524;
+  const Real t747 = rear_contacts1bn0_z * t377;
+  const Real t758 = t83 * t747 - (t495 * t746 - (t503 * t745 - (t510 * t744 + (t522 * t742 - t516 * t743))));
+  const Real t768 = t493 * t582;
+  const Real t769 = t484 * t576;
+  const Real t770 = t469 * t569;
+  const Real t771 = t448 * t563;
+  const Real t772 = t416 * t554;
+  const Real t773 = rear_contacts2bn0_z * t377;
+  const Real t774 = rear_contacts2bn0_y * Real(8.333333333333334);
+  const Real t785 = t83 * t773 + (t495 * t772 - (t503 * t771 - (t510 * t770 + (t522 * t768 - t516 * t769))));
+  const Real t800 = t493 * t625;
+  const Real t801 = t484 * t618;
+  const Real t802 = t469 * t611;
+  const Real t803 = t448 * t603;
+  const Real t804 = t416 * t594;
+  const Real t805 = t377 * t585;
+  const Real t816 = t83 * t805 - (t495 * t804 - (t503 * t803 - (t510 * t802 + (t522 * t800 - t516 * t801))));
+  const Real t837 = t493 * t677;
+  const Real t838 = t484 * t669;
+  const Real t839 = t469 * t662;
+  const Real t840 = t448 * t655;
+  const Real t841 = t416 * t644;
+  const Real t842 = t377 * t633;
+  const Real t843 = front_contacts1bm_z * model.c29;
+  const Real t854 = t83 * t842 - (t495 * t841 - (t503 * t840 - (t510 * t839 + (t522 * t837 - t516 * t838))));
+  const Real t883 = t493 * t729;
+  const Real t884 = t484 * t722;
+  const Real t885 = t469 * t714;
+  const Real t886 = t448 * t707;
+  const Real t887 = t416 * t696;
+  const Real t888 = t377 * t685;
+  const Real t889 = front_contacts2bm_z * model.c29;
+  const Real t890 = front_contacts2bn3p_x * Real(3.571428571428571);
+  const Real t901 = t83 * t888 - (t495 * t887 - (t503 * t886 - (t510 * t885 + (t522 * t883 - t516 * t884))));
+  const Real t944 = Real(1.0) / (t83 * (t83 * t377) - (t495 * (t416 * t495) - (t503 * (t448 * t503) - (t510 *
+      (t469 * t510) + (t522 * (t493 * t522) - t516 * (t484 * t516))))) + Real(1.8087085566416913e-12));
+  const Real t945 = t758 * t944;
+  const Real t956 = t785 * t944;
+  const Real t964 = t758 * t956 + (rear_contacts1bn0_y * t774 - (rear_contacts1bn0_z * t773 + (t524 * t772 -
+      (t533 * t771 - (t539 * t770 + (t552 * t768 - t545 * t769))))));
+  const Real t966 = t816 * t944;
+  const Real t973 = t758 * t966 - (rear_contacts1bn0_z * t805 - (t524 * t804 - (t533 * t803 - (t539 * t802 +
+      (t552 * t800 - t545 * t801)))));
+  const Real t976 = t854 * t944;
+  const Real t983 = t758 * t976 - (rear_contacts1bn0_z * t842 - (t524 * t841 - (t533 * t840 - (t539 * t839 +
+      (t552 * t837 - t545 * t838)))));
+  const Real t987 = t901 * t944;
+  const Real t994 = t758 * t987 - (rear_contacts1bn0_z * t888 - (t524 * t887 - (t533 * t886 - (t539 * t885 +
+      (t552 * t883 - t545 * t884)))));
+  const Real t999 = Real(1.0) / (t758 * t945 - (rear_contacts1bn0_y * rear_contacts1bn0_y *
+      Real(8.333333333333334) + (rear_contacts1bn0_z * t747 - (t524 * t746 - (t533 * t745 - (t539 * t744 +
+      (t552 * t742 - t545 * t743)))))) - Real(7.806783314072456e-11));
+  const Real t1000 = t964 * t999;
+  const Real t1012 = t973 * t999;
+  const Real t1020 = t964 * t1012 - (t785 * t966 - (rear_contacts2bn0_z * t805 + (t554 * t804 - (t563 * t803 -
+      (t569 * t802 + (t582 * t800 - t576 * t801))))));
+  const Real t1022 = t983 * t999;
+  const Real t1030 = t964 * t1022 - (t785 * t976 - (rear_contacts2bn0_z * t842 + (t554 * t841 - (t563 * t840 -
+      (t569 * t839 + (t582 * t837 - t576 * t838))))));
+  const Real t1033 = t994 * t999;
+  const Real t1041 = t964 * t1033 - (t785 * t987 - (rear_contacts2bn0_z * t888 + (t554 * t887 - (t563 * t886 -
+      (t569 * t885 + (t582 * t883 - t576 * t884))))));
+  const Real t1045 = Real(1.0) / (t964 * t1000 - (t785 * t956 - (rear_contacts2bn0_y * t774 +
+      (rear_contacts2bn0_z * t773 - (t554 * t772 - (t563 * t771 - (t569 * t770 + (t582 * t768 - t576 *
+      t769))))))) + Real(8.816994788327498e-12));
+  const Real t1046 = t1020 * t1045;
+  const Real t1059 = t1030 * t1045;
+  const Real t1069 = t1020 * t1059 - (t973 * t1022 - (t816 * t976 + (t92 * t843 - (t585 * t842 - (t594 * t841
+      - (t603 * t840 - (t611 * t839 + (t625 * t837 - t618 * t838))))))));
+  const Real t1071 = t1041 * t1045;
+  const Real t1081 = t1020 * t1071 - (t973 * t1033 - (t816 * t987 + (t92 * t889 - (t585 * t888 - (t594 * t887
+      - (t603 * t886 - (t611 * t885 + (t625 * t883 - t618 * t884))))))));
+  const Real t1084 = Real(1.0) / (t1020 * t1046 - (t973 * t1012 - (t816 * t966 + (model.c29 * (t92 * t92) -
+      (t585 * t805 - (t594 * t804 - (t603 * t803 - (t611 * t802 + (t625 * t800 - t618 * t801)))))))) -
       Real(3.988016169236579e-12));
-  const Real t1082 = t1066 * t1081;
-  const Real t1097 = t1078 * t1081;
-  const Real t1109 = t1066 * t1097 - (t1027 * t1068 - (t980 * t1030 - (t851 * t984 - (front_contacts1bn3p_x *
-      t887 - (front_contacts1bm_z * t886 - (t630 * t885 - (t641 * t884 - (t652 * t883 - (t659 * t882 + (t674 *
-      t880 - t666 * t881))))))))));
-  const Real t1111 = Real(1.0) / (t1066 * t1082 - (t1027 * t1056 - (t980 * t1019 - (t851 * t973 -
-      (Real(3.571428571428571) * (front_contacts1bn3p_x * front_contacts1bn3p_x) - (front_contacts1bm_z * t840
-      - (t630 * t839 - (t641 * t838 - (t652 * t837 - (t659 * t836 + (t674 * t834 - t666 * t835)))))))))) +
+  const Real t1085 = t1069 * t1084;
+  const Real t1100 = t1081 * t1084;
+  const Real t1112 = t1069 * t1100 - (t1030 * t1071 - (t983 * t1033 - (t854 * t987 - (front_contacts1bn3p_x *
+      t890 - (front_contacts1bm_z * t889 - (t633 * t888 - (t644 * t887 - (t655 * t886 - (t662 * t885 + (t677 *
+      t883 - t669 * t884))))))))));
+  const Real t1114 = Real(1.0) / (t1069 * t1085 - (t1030 * t1059 - (t983 * t1022 - (t854 * t976 -
+      (Real(3.571428571428571) * (front_contacts1bn3p_x * front_contacts1bn3p_x) - (front_contacts1bm_z * t843
+      - (t633 * t842 - (t644 * t841 - (t655 * t840 - (t662 * t839 + (t677 * t837 - t669 * t838)))))))))) +
       Real(4.6476630875276904e-11));
-  const Real t1112 = t1109 * t1111;
-  const Real t1128 = Real(1.0) / (t1109 * t1112 - (t1078 * t1097 - (t1038 * t1068 - (t991 * t1030 - (t898 *
-      t984 - (front_contacts2bn3p_x * t887 - (front_contacts2bm_z * t886 - (t682 * t885 - (t693 * t884 - (t704
-      * t883 - (t711 * t882 + (t726 * t880 - t719 * t881))))))))))) - Real(2.7054786900152528e-11));
-  const Real t1133 = t50 * state.z[5] + (t48 * state.z[3] + t49 * state.z[4]);
-  const Real t1138 = t49 * state.z[5] + (t47 * state.z[3] - t50 * state.z[4]);
-  const Real t1143 = t48 * state.z[5] - (t50 * state.z[3] + t47 * state.z[4]);
-  const Real t1148 = t47 * state.z[5] - (t49 * state.z[3] - t48 * state.z[4]);
-  const Real t1153 = Real(2.0) * state.y[3];
-  const Real t1155 = t51 * t53;
-  const Real t1159 = t52 * rear_contactc_z * t1155 - (t91 + t91);
-  const Real t1165 = c2 * Real(0.3090169943749474);
-  const Real t1171 = front_contactbx3_x * Real(0.9510565162951535);
-  const Real t1172 = front_contactbx3_x * Real(0.3090169943749474);
-  const Real t1190 = t66 * (t55 * front_contactc_z) - (t68 + t68);
-  const Real t1192 = t55 + t54 * (t66 * (t55 * t56));
-  const Real t1195 = t1143 * (q0d2 + q0d2);
-  const Real t1199 = q0d3 * t1143 - q0d2 * t1148;
-  const Real t1202 = t1148 * (q0d3 + q0d3);
-  const Real t1206 = t1143 * t1153 + q0d2 * t1133;
-  const Real t1208 = t1148 * t1153 - q0d3 * t1133;
-  const Real t1209 = t1138 * (q0d1 + q0d1);
-  const Real t1211 = q0d1 * t1133 - t1138 * t1153;
-  const Real t1213 = q0d1 * t1148 + q0d3 * t1138;
-  const Real t1214 = t1206 + t1213;
-  const Real t1215 = t1199 + t1211;
-  const Real t1217 = q0d1 * t1143 - q0d2 * t1138;
-  const Real t1218 = t1206 - t1213;
-  const Real t1219 = t1199 - t1211;
-  const Real t1220 = t1195 - t1209;
-  const Real t1223 = Real(2.0) * t86 + model.rear_radius * (t51 * (t52 * t53 * t1155));
-  const Real t1225 = model.rear_radius * state.z[3];
-  const Real t1233 = t1195 - t1202;
-  const Real t1236 = rear_contactc_z * state.z[3];
-  const Real t1239 = model.rear_radius * state.z[4];
-  const Real t1241 = rear_contactc_z * state.z[5];
-  const Real t1245 = state.z[4] + state.z[6];
-  const Real t1253 = q0r1_z * t1165 + (s2 * q0r1_y - Real(0.9510565162951535) * (c2 * q0r1_x));
-  const Real t1283 = state.z[7] * t1171 + (front_contactbx3_x * state.z[5] + front_contactbx2p_z *
+  const Real t1115 = t1112 * t1114;
+  const Real t1131 = Real(1.0) / (t1112 * t1115 - (t1081 * t1100 - (t1041 * t1071 - (t994 * t1033 - (t901 *
+      t987 - (front_contacts2bn3p_x * t890 - (front_contacts2bm_z * t889 - (t685 * t888 - (t696 * t887 - (t707
+      * t886 - (t714 * t885 + (t729 * t883 - t722 * t884))))))))))) - Real(2.7054786900152528e-11));
+  const Real t1136 = t50 * state.z[5] + (t48 * state.z[3] + t49 * state.z[4]);
+  const Real t1141 = t49 * state.z[5] + (t47 * state.z[3] - t50 * state.z[4]);
+  const Real t1146 = t48 * state.z[5] - (t50 * state.z[3] + t47 * state.z[4]);
+  const Real t1151 = t47 * state.z[5] - (t49 * state.z[3] - t48 * state.z[4]);
+  const Real t1162 = rear_contactc_z * state.z[5];
+  const Real t1164 = model.rear_radius * state.z[4];
+  const Real t1165 = state.z[4] + state.z[6];
+  const Real t1167 = Real(2.0) * state.y[3];
+  const Real t1170 = t1141 * (q0d1 + q0d1);
+  const Real t1176 = q0d3 * t1141 + q0d1 * t1151;
+  const Real t1180 = q0d2 * t1136;
+  const Real t1182 = t1151 * t1167 - q0d3 * t1136;
+  const Real t1184 = Real(0.9510565162951535) * state.z[7];
+  const Real t1185 = front_contactbx3_x * Real(0.3090169943749474);
+  const Real t1186 = front_contactbx3_x * Real(0.9510565162951535);
+  const Real t1199 = c2 * Real(0.9510565162951535);
+  const Real t1200 = c2 * Real(0.3090169943749474);
+  const Real t1210 = Real(0.3090169943749474) * state.z[7];
+  const Real t1215 = q0r0_y * state.z[5] - q0r0_z * state.z[4];
+  const Real t1227 = front_contactbd2p_x * state.z[8] - (state.z[3] + t1210);
+  const Real t1228 = state.z[4] + c2 * state.z[8];
+  const Real t1229 = state.z[5] + t1184;
+  const Real t1230 = front_contactbd2p_z * state.z[8] + t1229;
+  const Real t1240 = front_contactbx2p_z * state.z[4] + front_contactbx3_x * t1229;
+  const Real t1245 = front_contactbx2p_z * state.z[3] + (front_contactbx3_y * state.z[7] + front_contactbx2p_x
+      * state.z[5]);
+  const Real t1248 = front_contactbx3_x * state.z[3] + (state.z[7] * t1185 - front_contactbx2p_x *
       state.z[4]);
-  const Real t1285 = front_contactbx3_y * state.z[7] + (front_contactbx2p_x * state.z[5] + front_contactbx2p_z
-      * state.z[3]);
-  const Real t1287 = state.z[7] * t1172 - (front_contactbx2p_x * state.z[4] - front_contactbx3_x *
-      state.z[3]);
-  const Real t1291 = front_contactbd2p_x * state.z[8] - (state.z[3] + Real(0.3090169943749474) * state.z[7]);
-  const Real t1293 = state.z[4] + c2 * state.z[8];
-  const Real t1296 = front_contactbd2p_z * state.z[8] + (state.z[5] + Real(0.9510565162951535) * state.z[7]);
-  const Real t1311 = t75 * (t84 * state.z[4] + q0r2_y * state.z[5]);
-  const Real t1316 = q0r2_y * t1245 + (q0r2_x * state.z[3] - q0r2_z * state.z[5]);
-  const Real t1338 = q0r2_z * t1296 - (q0r2_y * t1293 - q0r2_x * t1291);
-  const Real t1355 = rear_contactc_z * t1245 + t91 * t1316;
-  const Real t1368 = front_contactc_z * t1293 + t69 * t1338;
-  const Real t1370 = front_contactc_z * t1296 + t70 * t1338;
-  const Real t1372 = t68 * t1338;
-  const Real t1380 = front_contactc_z * t1291 + front_contactbd2p_x * t1372;
-  const Real t1381 = t1202 + t1209;
-  const Real t1387 = t75 * t1220;
-  const Real t1410 = t65 * state.z[7] + (front_contactbd2p_x * t1214 - (front_contactbd2p_z * t1220 - c2 *
-      t1215));
-  const Real t1425 = t1208 + t1217;
-  const Real t1426 = t1208 - t1217;
+  const Real t1253 = t70 * (t55 * front_contactc_z) - (t72 + t72);
+  const Real t1262 = q0r2_y * t1228 - (q0r2_z * t1230 + q0r2_x * t1227);
+  const Real t1266 = t72 * t1262;
+  const Real t1277 = front_contactc_z * t1230 - front_contactbd2p_z * t1266;
+  const Real t1280 = t1146 * t1167;
+  const Real t1282 = t1280 + (t1176 + t1180);
+  const Real t1284 = q0d2 * t1141 - q0d1 * t1146;
+  const Real t1286 = t1280 - (t1176 - t1180);
+  const Real t1287 = t1182 - t1284;
+  const Real t1288 = t1182 + t1284;
+  const Real t1289 = model.rear_radius * state.z[3];
+  const Real t1290 = rear_contactc_z * state.z[3];
+  const Real t1293 = c2 * t1266 - front_contactc_z * t1228;
+  const Real t1295 = t51 * t53;
+  const Real t1300 = t52 * rear_contactc_z * t1295 - (t59 + t59);
+  const Real t1316 = q0r2_x * state.z[3] - (q0r2_z * state.z[5] - q0r2_y * t1165);
+  const Real t1319 = rear_contactc_z * t1165 + t59 * t1316;
+  const Real t1325 = front_contactbd2p_x * t1266 - front_contactc_z * t1227;
+  const Real t1338 = t79 * state.z[3] + q0r2_x * state.z[5];
+  const Real t1385 = q0d3 * t1146 - (q0d2 * t1151 - (t1141 * t1167 - q0d1 * t1136));
+  const Real t1411 = t1170 - t1146 * (q0d2 + q0d2);
+  const Real t1412 = t1170 + t1151 * (q0d3 + q0d3);
+  const Real t1417 = front_contactbd2p_z * t1411 + (c2 * t1338 + (t69 * state.z[7] + front_contactbd2p_x *
+      t1282));
+  const Real t1435 = t81 * t1411;
   const Real w2p_y = Real(0.3090169943749474) * state.z[5] - Real(0.9510565162951535) * state.z[3];
   const Real w2p_z = Real(0.3090169943749474) * state.z[3] + Real(0.9510565162951535) * state.z[5];
   const Real w2_z = state.z[7] + w2p_z;
@@ -1036,119 +1031,122 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real rf0_z = rf2p_z - (state.z[5] * ruh0 - h2c_z * ruw0);
   const Real tau_2_0 = input.u[0] - (rdn3_y + (w2p_y * rKx2 - (h2b_y * ra2o_y + (state.z[4] * rKy2 - h2b_x *
       ra2_y))));
-  const Real t1608 = t334 * tau_2_0 - (t324 * rQp3 - (model.r_steer_x * rdf2_x - (Real(0.9510565162951535) *
+  const Real t1624 = t337 * tau_2_0 - (t327 * rQp3 - (model.r_steer_x * rdf2_x - (Real(0.9510565162951535) *
       rdn3_y + (Real(0.3090169943749474) * rn2_y + (rdn1_x - (h2c_x * rfallW_y - (h2b_x * rfallW_x +
       (state.z[3] * rSu0_y - state.z[4] * rSu0_x))))))));
-  const Real t1625 = t375 * t1608 - (t354 * tau_2_0 - (t328 * rQp3 - (model.r_steer_z * rf2p_x +
+  const Real t1641 = t378 * t1624 - (t357 * tau_2_0 - (t331 * rQp3 - (model.r_steer_z * rf2p_x +
       (model.r_steer_x * rf2p_z + (rn2b_x - (rKy2 * z2_2 - (S2b_yz * zz_2 - (h2c_z * rfallW_x - (h2c_x *
       rfallW_z - (state.z[3] * rSu0_z + state.z[5] * rSu0_x))))))))));
-  const Real t1641 = t414 * t1625 - (t399 * t1608 - (t360 * tau_2_0 - (t331 * rQp3 + (model.r_steer_z * rdf2_x
+  const Real t1657 = t417 * t1641 - (t402 * t1624 - (t363 * tau_2_0 - (t334 * rQp3 + (model.r_steer_z * rdf2_x
       + (Real(0.9510565162951535) * rn2_y - (Real(0.3090169943749474) * rdn3_y - (rdn1_y + (h2c_z * rfallW_y -
       (h2b_x * rfallW_z - (state.z[4] * rSu0_z + state.z[5] * rSu0_y))))))))));
-  const Real t1653 = t446 * t1641 - (t436 * t1625 - (t404 * t1608 - (t365 * tau_2_0 - (q0r2_z * rf0_z -
+  const Real t1669 = t449 * t1657 - (t439 * t1641 - (t407 * t1624 - (t368 * tau_2_0 - (q0r2_z * rf0_z -
       (q0r2_x * rf0_x - q0r2_y * rf0_y))))) + Real(922.1400000000001);
-  const Real t1663 = t467 * t1653 - (t461 * t1641 - (t440 * t1625 - (t408 * t1608 - (t369 * tau_2_0 - (q0r1_z
+  const Real t1679 = t470 * t1669 - (t464 * t1657 - (t443 * t1641 - (t411 * t1624 - (t372 * tau_2_0 - (q0r1_z
       * rf0_z + (q0r1_x * rf0_x + q0r1_y * rf0_y))))));
-  const Real t1673 = t482 * t1663 - (t479 * t1653 - (t464 * t1641 - (t443 * t1625 - (t411 * t1608 - (t372 *
+  const Real t1689 = t485 * t1679 - (t482 * t1669 - (t467 * t1657 - (t446 * t1641 - (t414 * t1624 - (t375 *
       tau_2_0 - (q0r0_z * rf0_z + (q0r0_x * rf0_x - q0r0_y * rf0_y)))))));
-  const Real t1674 = t490 * t1673;
-  const Real t1675 = t481 * t1663;
-  const Real t1676 = t466 * t1653;
-  const Real t1677 = t445 * t1641;
-  const Real t1678 = t413 * t1625;
-  const Real t1679 = t374 * t1608;
-  const Real t1680 = model.c29 * tau_2_0;
-  const Real t1681 = Real(3.571428571428571) * rQp3;
-  const Real t1734 = t1214 * (t1239 - t91 * state.z[5]) + (t1215 * (t1225 + t1215 * t1223) - (t95 * t1679 -
-      (t492 * t1678 - (t500 * t1677 - (t507 * t1676 - (t513 * t1675 - (state.z[3] * (t91 * t1220) + t519 *
-      t1674)))))));
-  const Real t1749 = t942 * t1734 + (rear_contacts1bn0_z * t1679 - (t521 * t1678 - (t530 * t1677 - (t536 *
-      t1676 - (t542 * t1675 - (t549 * t1674 + (t1225 * t1425 - (t1236 * t1426 - (t1233 * t1239 + (t1219 *
-      t1241 + (t1214 * (rear_contactc_y * state.z[3]) - (t1215 * (q0r1_y * t1223 * t1316 + (rear_contactc_y *
-      t1245 + t1159 * (q0r1_y * t1245 - (q0r1_x * state.z[3] + q0r1_z * state.z[5])))) - (t1355 * t1381 +
-      t1220 * (rear_contactc_y * state.z[5]))))))))))))));
-  const Real t1769 = t997 * t1749 - (t953 * t1734 + (rear_contacts2bn0_z * t1679 + (t551 * t1678 - (t560 *
-      t1677 - (t566 * t1676 - (t573 * t1675 - (t579 * t1674 - (t1218 * t1241 + (t1355 * t1425 - (t1239 * t1426
-      + (t1233 * t1236 + (t1214 * (rear_contactc_x * state.z[3]) - (t1215 * (q0r0_y * t1223 * t1316 +
-      (rear_contactc_x * t1245 + t1159 * (q0r0_y * t1245 + (q0r0_z * state.z[5] + q0r0_x * state.z[3])))) -
-      (t1225 * t1381 + t1220 * (rear_contactc_x * state.z[5])))))))))))))));
-  const Real t1779 = Real(0.9510565162951535) * t1311 - Real(0.3090169943749474) * t1387;
-  const Real t1799 = state.z[4] * (t73 * t1214) + (state.z[3] * (t73 * t1215 - t1387) + (state.z[7] * (t1779 -
-      (state.z[7] * (front_contactbd0p_z * t68 - model.r_front_y * t65) - (Real(2.0) * ((front_contactbx3_y -
-      s2 * t68) * t1215) + t1779))) + (t1043 * t1769 - (t1009 * t1749 - (t963 * t1734 - (t79 * t1680 - (t582 *
-      t1679 - (t591 * t1678 - (t600 * t1677 - (t608 * t1676 - (t615 * t1675 - (t622 * t1674 -
-      (model.front_radius * (t1410 * (t1192 * t1410)) + (state.z[5] * t1311 + (t1220 * (t76 * state.z[4]) +
-      t1215 * (t76 * state.z[5]))))))))))))))));
-  const Real t1824 = t1082 * t1799 - (t1056 * t1769 - (t1019 * t1749 - (t973 * t1734 - (front_contacts1bn3p_x
-      * t1681 + (front_contacts1bm_z * t1680 - (t630 * t1679 - (t641 * t1678 - (t652 * t1677 - (t659 * t1676 -
-      (t666 * t1675 - (t674 * t1674 + (t1218 * t1287 + (t1285 * t1425 + (t1380 * t1426 + (t1233 * t1283 -
-      (t1410 * (t132 * t1192 * t1338 + t1190 * (q0r1_z * t1296 - (q0r1_x * t1291 + q0r1_y * t1293))) +
-      (state.z[7] * (t1338 * (t68 * t1253) + (state.z[8] * (s2 * front_contacts1bn0_y + c2 *
-      front_contacts1bn2_y) - (state.z[7] * (front_contactbx3_x * q0r0_y - front_contactbx3_y *
-      front_contacts1bf2_y) - (state.z[3] * (front_contactbx3_y * q0r0_z - q0r0_y * t1172) - (state.z[5] *
-      (front_contactbx3_y * q0r0_x + q0r0_y * t1171) - state.z[4] * (q0r0_x * t1172 + q0r0_z * t1171)))))) -
-      (t1219 * t1370 - (t1214 * (front_contactc_y * t1291) + (t1215 * (front_contactc_y * t1293) - (t1368 *
-      t1381 + t1220 * (front_contactc_y * t1296))))))))))))))))))))));
-  const Real t1855 = t1128 * (t1112 * t1824 - (t1097 * t1799 - (t1068 * t1769 - (t1030 * t1749 - (t984 * t1734
-      - (front_contacts2bn3p_x * t1681 + (front_contacts2bm_z * t1680 - (t682 * t1679 - (t693 * t1678 - (t704
-      * t1677 - (t711 * t1676 - (t719 * t1675 - (t726 * t1674 - (t1218 * t1370 + (t1368 * t1425 - (t1283 *
-      t1426 - (t1233 * t1380 - (t1410 * (t170 * t1192 * t1338 - t1190 * (q0r0_x * t1291 - (q0r0_y * t1293 +
-      q0r0_z * t1296))) + (state.z[7] * ((q0r0_z * t1165 - (s2 * q0r0_y + c2 * t137)) * t1372 -
-      (model.r_front_y * (state.z[7] * t1253) - (state.z[5] * (front_contactbx3_y * q0r1_x - q0r1_y * t1171) -
-      (state.z[4] * (q0r1_x * t1172 + q0r1_z * t1171) + (state.z[8] * (s2 * front_contacts2bn0_y - c2 *
-      front_contacts2bn2_y) + state.z[3] * (front_contactbx3_y * q0r1_z + q0r1_y * t1172)))))) + (t1219 *
-      t1287 + (t1214 * (front_contactc_x * t1291) + (t1215 * (front_contactc_x * t1293) + (t1285 * t1381 -
-      t1220 * (front_contactc_x * t1296))))))))))))))))))))))));
-  const Real t1857 = t1111 * t1824 - t1112 * t1855;
-  const Real t1861 = t1097 * t1855 - (t1081 * t1799 - t1082 * t1857);
-  const Real t1867 = t1068 * t1855 + (t1056 * t1857 - (t1042 * t1769 + t1043 * t1861));
-  const Real t1875 = t1030 * t1855 + (t1019 * t1857 - (t1009 * t1861 + (t996 * t1749 + t997 * t1867)));
-  const Real t1885 = t984 * t1855 + (t973 * t1857 - (t963 * t1861 + (t953 * t1867 + (t941 * t1734 + t942 *
-      t1875))));
-  const Real t1886 = Real(1.8087085566416913e-12) * t1885;
-  const Real t1893 = Real(7.806783314072456e-11) * t1875 - t942 * t1886;
-  const Real t1900 = t997 * t1893 - (Real(8.816994788327498e-12) * t1867 - t953 * t1886);
-  const Real t1907 = t1043 * t1900 - (t1009 * t1893 - (Real(3.988016169236579e-12) * t1861 - t963 * t1886));
-  const Real t1914 = t1082 * t1907 - (t1056 * t1900 - (t1019 * t1893 + (Real(4.6476630875276904e-11) * t1857 +
-      t973 * t1886)));
-  const Real t1927 = t1128 * (t1112 * t1914 - (t1097 * t1907 - (t1068 * t1900 - (t1030 * t1893 +
-      (Real(2.7054786900152528e-11) * t1855 + t984 * t1886)))));
-  const Real t1929 = t1111 * t1914 - t1112 * t1927;
-  const Real t1933 = t1097 * t1927 - (t1081 * t1907 - t1082 * t1929);
-  const Real t1939 = t1068 * t1927 + (t1056 * t1929 - (t1042 * t1900 + t1043 * t1933));
-  const Real t1947 = t1030 * t1927 + (t1019 * t1929 - (t1009 * t1933 + (t996 * t1893 + t997 * t1939)));
-  const Real t1958 = t984 * t1927 + (t973 * t1929 - (t963 * t1933 + (t953 * t1939 + (t942 * t1947 - (t1885 +
-      t941 * t1886)))));
-  const Real t1959 = t1875 + t1947;
-  const Real t1960 = t1867 + t1939;
-  const Real t1961 = t1861 + t1933;
-  const Real t1962 = t1857 + t1929;
-  const Real t1963 = t1855 + t1927;
-  const Real t2049 = t490 * (t726 * t1963 + (t674 * t1962 - (t622 * t1961 - (t579 * t1960 - (t549 * t1959 -
-      (t1673 - t519 * t1958))))));
-  const Real t2052 = t481 * (t719 * t1963 + (t666 * t1962 - (t615 * t1961 - (t573 * t1960 - (t542 * t1959 -
-      (t1663 - t513 * t1958)))))) - t482 * t2049;
-  const Real t2057 = t467 * t2052 - (t466 * (t711 * t1963 + (t659 * t1962 - (t608 * t1961 - (t566 * t1960 -
-      (t536 * t1959 - (t1653 - t507 * t1958)))))) - t479 * t2049);
-  const Real t2064 = t446 * t2057 - (t461 * t2052 - (t445 * (t704 * t1963 + (t652 * t1962 - (t600 * t1961 -
-      (t560 * t1960 - (t530 * t1959 - (t1641 - t500 * t1958)))))) - t464 * t2049));
-  const Real t2073 = t414 * t2064 - (t436 * t2057 - (t440 * t2052 - (t413 * (t693 * t1963 + (t641 * t1962 -
-      (t591 * t1961 - (t551 * t1960 - (t521 * t1959 - (t1625 - t492 * t1958)))))) - t443 * t2049)));
-  const Real t2084 = t375 * t2073 - (t399 * t2064 - (t404 * t2057 - (t408 * t2052 - (t374 * (t682 * t1963 +
-      (t630 * t1962 - (t582 * t1961 + (rear_contacts2bn0_z * t1960 + (rear_contacts1bn0_z * t1959 - (t1608 -
-      t95 * t1958)))))) - t411 * t2049))));
-  zdot[0] = t2049;
-  zdot[1] = t2052;
-  zdot[2] = t2057;
-  zdot[3] = -t2064;
-  zdot[4] = -t2073;
-  zdot[5] = t2084;
-  zdot[6] = t2073 + Real(8.333333333333334) * (rear_contacts1bn0_y * t1959 - rear_contacts2bn0_y * t1960);
-  zdot[7] = t334 * t2084 - (t354 * t2073 - (t360 * t2064 - (t365 * t2057 - (t369 * t2052 - (model.c29 *
-      (front_contacts2bm_z * t1963 + (front_contacts1bm_z * t1962 + (tau_2_0 - t79 * t1961))) - t372 *
-      t2049)))));
-  zdot[8] = -(t324 * t2084 - (t328 * t2073 - (Real(3.571428571428571) * (front_contacts2bn3p_x * t1963 - (rQp3
-      - front_contacts1bn3p_x * t1962)) + t331 * t2064)));
+  const Real t1690 = t493 * t1689;
+  const Real t1691 = t484 * t1679;
+  const Real t1692 = t469 * t1669;
+  const Real t1693 = t448 * t1657;
+  const Real t1694 = t416 * t1641;
+  const Real t1695 = t377 * t1624;
+  const Real t1696 = model.c29 * tau_2_0;
+  const Real t1697 = Real(3.571428571428571) * rQp3;
+  const Real t1750 = t1282 * (t1164 - t59 * state.z[5]) + (t1338 * (t1289 + t1338 * (Real(2.0) * t58 +
+      model.rear_radius * (t51 * (t52 * t53 * t1295)))) - (t83 * t1695 - (t495 * t1694 - (t503 * t1693 - (t510
+      * t1692 - (t516 * t1691 + (t59 * state.z[3] * t1411 - t522 * t1690)))))));
+  const Real t1765 = t945 * t1750 + (rear_contacts1bn0_z * t1695 - (t524 * t1694 - (t533 * t1693 - (t539 *
+      t1692 - (t545 * t1691 - (t552 * t1690 + (t1162 * t1385 + (t1319 * t1412 - (t1288 * t1290 +
+      (rear_contactc_y * state.z[5] * t1411 + (t1338 * (t1300 * (q0r1_y * t1165 - (q0r1_x * state.z[3] +
+      q0r1_z * state.z[5])) + (rear_contactc_y * t1165 + t1316 * (rear_contacts1bn0_y + t52 * rear_contactc_y
+      * t1295))) - (state.z[3] * (rear_contactc_y * t1282) + (t1287 * t1289 + t1164 * t1215)))))))))))));
+  const Real t1785 = t1000 * t1765 - (t956 * t1750 + (rear_contacts2bn0_z * t1695 + (t554 * t1694 - (t563 *
+      t1693 - (t569 * t1692 - (t576 * t1691 - (t582 * t1690 + (t1289 * t1412 + (t1164 * t1288 -
+      (rear_contactc_x * state.z[5] * t1411 + (t1338 * (t1300 * (q0r0_x * state.z[3] + (q0r0_z * state.z[5] +
+      q0r0_y * t1165)) + (rear_contactc_x * t1165 + (rear_contacts2bn0_y + t52 * rear_contactc_x * t1295) *
+      t1316)) - (t1282 * (rear_contactc_x * state.z[3]) + (t1215 * t1290 - (t1162 * t1286 + t1287 *
+      t1319))))))))))))));
+  const Real t1815 = state.z[7] * (front_contactbx3_y - s2 * t72) * (t1338 + t1338) + (state.z[4] * (t89 *
+      t1282 - t86 * t1411) + (Real(2.0) * (t1210 * t1435) + (t81 * t1184 * (t1282 + t1282) + (t1046 * t1785 -
+      (t1012 * t1765 - (t966 * t1750 - (t92 * t1696 - (t585 * t1695 - (t594 * t1694 - (t603 * t1693 - (t611 *
+      t1692 - (t618 * t1691 - (t625 * t1690 - (t1417 * (t1417 * (t56 * model.c30 + model.front_radius * (t54 *
+      (t70 * (t55 * t56))))) + (t1338 * (t86 * state.z[5]) + (state.z[3] * (t1435 + t89 * t1338) - (state.z[7]
+      * (state.z[7] * (front_contactbd0p_z * t72 - model.r_front_y * t69)) - t1282 * (t81 *
+      state.z[5]))))))))))))))))));
+  const Real t1841 = t1085 * t1815 - (t1059 * t1785 - (t1022 * t1765 - (t976 * t1750 - (front_contacts1bn3p_x
+      * t1697 + (front_contacts1bm_z * t1696 - (t633 * t1695 - (t644 * t1694 - (t655 * t1693 - (t662 * t1692 -
+      (t669 * t1691 - (t677 * t1690 + (t1277 * t1385 - (t1293 * t1412 + (t1288 * t1325 + (t1266 * (state.z[7]
+      * (q0r1_x * t1199 - (s2 * q0r1_y + q0r1_z * t1200))) - (t1417 * (t1253 * (q0r1_x * t1227 - (q0r1_z *
+      t1230 - q0r1_y * t1228)) + t1262 * (t70 * (t55 * front_contactc_y) + t55 * t132)) - (t1227 *
+      (front_contactc_y * t1282) + (t1411 * (front_contactc_y * t1230) + (t1228 * (front_contactc_y * t1338) +
+      (state.z[7] * (state.z[8] * (s2 * front_contacts1bn0_y + c2 * front_contacts1bn2_y) + (state.z[3] *
+      (front_contactbx3_y * q0r0_z - q0r0_y * t1185) + (state.z[4] * (q0r0_x * t1185) - (t1186 * t1215 +
+      (state.z[7] * (front_contactbx3_x * q0r0_y) + front_contactbx3_y * (q0r0_x * state.z[5] -
+      front_contacts1bf2_y * state.z[7])))))) - (t1215 * t1240 + (t1248 * t1286 + t1245 *
+      t1287))))))))))))))))))))));
+  const Real t1872 = t1131 * (t1115 * t1841 - (t1100 * t1815 - (t1071 * t1785 - (t1033 * t1765 - (t987 * t1750
+      - (front_contacts2bn3p_x * t1697 + (front_contacts2bm_z * t1696 - (t685 * t1695 - (t696 * t1694 - (t707
+      * t1693 - (t714 * t1692 - (t722 * t1691 - (t729 * t1690 + (t1248 * t1385 + (t1245 * t1412 + (t1240 *
+      t1288 - ((t1262 * (t70 * (t55 * front_contactc_x) + t55 * t170) + t1253 * (q0r0_x * t1227 - (q0r0_z *
+      t1230 + q0r0_y * t1228))) * t1417 - (front_contactc_x * t1230 * t1411 + (front_contactc_x * t1228 *
+      t1338 - (state.z[7] * (state.z[3] * (front_contactbx3_y * q0r1_z + q0r1_y * t1185) + (state.z[4] *
+      (q0r1_z * t1186 + q0r1_x * t1185) - (t1266 * (q0r0_x * t1199 + (s2 * q0r0_y - q0r0_z * t1200)) -
+      (state.z[8] * (s2 * front_contacts2bn0_y - c2 * front_contacts2bn2_y) + (state.z[7] *
+      (front_contactbx3_x * q0r1_y + front_contactbx3_y * front_contacts2bf2_y) - state.z[5] *
+      (front_contactbx3_y * q0r1_x - q0r1_y * t1186)))))) - (front_contactc_x * t1227 * t1282 + (t1215 * t1325
+      - (t1277 * t1286 - t1287 * t1293)))))))))))))))))))))));
+  const Real t1874 = t1114 * t1841 - t1115 * t1872;
+  const Real t1878 = t1100 * t1872 - (t1084 * t1815 - t1085 * t1874);
+  const Real t1884 = t1071 * t1872 + (t1059 * t1874 - (t1045 * t1785 + t1046 * t1878));
+  const Real t1892 = t1033 * t1872 + (t1022 * t1874 - (t1012 * t1878 + (t999 * t1765 + t1000 * t1884)));
+  const Real t1902 = t987 * t1872 + (t976 * t1874 - (t966 * t1878 + (t956 * t1884 + (t944 * t1750 + t945 *
+      t1892))));
+  const Real t1903 = Real(1.8087085566416913e-12) * t1902;
+  const Real t1910 = Real(7.806783314072456e-11) * t1892 - t945 * t1903;
+  const Real t1917 = t1000 * t1910 - (Real(8.816994788327498e-12) * t1884 - t956 * t1903);
+  const Real t1924 = t1046 * t1917 - (t1012 * t1910 - (Real(3.988016169236579e-12) * t1878 - t966 * t1903));
+  const Real t1931 = t1085 * t1924 - (t1059 * t1917 - (t1022 * t1910 + (Real(4.6476630875276904e-11) * t1874 +
+      t976 * t1903)));
+  const Real t1944 = t1131 * (t1115 * t1931 - (t1100 * t1924 - (t1071 * t1917 - (t1033 * t1910 +
+      (Real(2.7054786900152528e-11) * t1872 + t987 * t1903)))));
+  const Real t1946 = t1114 * t1931 - t1115 * t1944;
+  const Real t1950 = t1100 * t1944 - (t1084 * t1924 - t1085 * t1946);
+  const Real t1956 = t1071 * t1944 + (t1059 * t1946 - (t1045 * t1917 + t1046 * t1950));
+  const Real t1964 = t1033 * t1944 + (t1022 * t1946 - (t1012 * t1950 + (t999 * t1910 + t1000 * t1956)));
+  const Real t1975 = t987 * t1944 + (t976 * t1946 - (t966 * t1950 + (t956 * t1956 + (t945 * t1964 - (t1902 +
+      t944 * t1903)))));
+  const Real t1976 = t1892 + t1964;
+  const Real t1977 = t1884 + t1956;
+  const Real t1978 = t1878 + t1950;
+  const Real t1979 = t1874 + t1946;
+  const Real t1980 = t1872 + t1944;
+  const Real t2066 = t493 * (t729 * t1980 + (t677 * t1979 - (t625 * t1978 - (t582 * t1977 - (t552 * t1976 -
+      (t1689 - t522 * t1975))))));
+  const Real t2069 = t484 * (t722 * t1980 + (t669 * t1979 - (t618 * t1978 - (t576 * t1977 - (t545 * t1976 -
+      (t1679 - t516 * t1975)))))) - t485 * t2066;
+  const Real t2074 = t470 * t2069 - (t469 * (t714 * t1980 + (t662 * t1979 - (t611 * t1978 - (t569 * t1977 -
+      (t539 * t1976 - (t1669 - t510 * t1975)))))) - t482 * t2066);
+  const Real t2081 = t449 * t2074 - (t464 * t2069 - (t448 * (t707 * t1980 + (t655 * t1979 - (t603 * t1978 -
+      (t563 * t1977 - (t533 * t1976 - (t1657 - t503 * t1975)))))) - t467 * t2066));
+  const Real t2090 = t417 * t2081 - (t439 * t2074 - (t443 * t2069 - (t416 * (t696 * t1980 + (t644 * t1979 -
+      (t594 * t1978 - (t554 * t1977 - (t524 * t1976 - (t1641 - t495 * t1975)))))) - t446 * t2066)));
+  const Real t2101 = t378 * t2090 - (t402 * t2081 - (t407 * t2074 - (t411 * t2069 - (t377 * (t685 * t1980 +
+      (t633 * t1979 - (t585 * t1978 + (rear_contacts2bn0_z * t1977 + (rear_contacts1bn0_z * t1976 - (t1624 -
+      t83 * t1975)))))) - t414 * t2066))));
+  zdot[0] = t2066;
+  zdot[1] = t2069;
+  zdot[2] = t2074;
+  zdot[3] = -t2081;
+  zdot[4] = -t2090;
+  zdot[5] = t2101;
+  zdot[6] = t2090 + Real(8.333333333333334) * (rear_contacts1bn0_y * t1976 - rear_contacts2bn0_y * t1977);
+  zdot[7] = t337 * t2101 - (t357 * t2090 - (t363 * t2081 - (t368 * t2074 - (t372 * t2069 - (model.c29 *
+      (front_contacts2bm_z * t1980 + (front_contacts1bm_z * t1979 + (tau_2_0 - t92 * t1978))) - t375 *
+      t2066)))));
+  zdot[8] = -(t327 * t2101 - (t331 * t2090 - (Real(3.571428571428571) * (front_contacts2bn3p_x * t1980 - (rQp3
+      - front_contacts1bn3p_x * t1979)) + t334 * t2081)));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -1445,16 +1443,16 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
       c2);
   const Real t52 = Real(1.0) - front_contactbd0p_z * front_contactbd0p_z;
   const Real front_contactup = detail::square_root(t52);
-  const Real t62 = q0r2_x * Real(0.9510565162951535) + q0r2_z * Real(0.3090169943749474);
-  const Real t68 = (front_contactbd0p_z + front_contactbd0p_z) / front_contactup * model.c30;
-  const Real t73 = front_contactbx2p_z - front_contactbd2p_z * t68;
-  const Real t75 = front_contactbx3_x + c2 * t68;
-  const Real t76 = front_contactbx2p_x - front_contactbd2p_x * t68;
-  const Real t79 = front_contactbx3_x * t62 + ((c2 * t62 + q0r2_y * s2) * t68 - q0r2_y * front_contactbx3_y);
-  const Real q012 = q0d1 * state.y[5];
-  const Real t85 = (q011 + q022) * Real(0.5) - (state.y[6] * state.y[6] + state.y[3] * state.y[3]);
-  const Real t92 = (q0r2_y + q0r2_y) / rear_contactup * model.c31;
-  const Real t96 = q0r2_x * t92;
+  const Real t60 = (q0r2_y + q0r2_y) / rear_contactup * model.c31;
+  const Real t66 = q0r2_x * Real(0.9510565162951535) + q0r2_z * Real(0.3090169943749474);
+  const Real t71 = (front_contactbd0p_z + front_contactbd0p_z) / front_contactup * model.c32;
+  const Real t80 = (q011 + q022) * Real(0.5) - (state.y[6] * state.y[6] + state.y[3] * state.y[3]);
+  const Real t82 = front_contactbx3_x + c2 * t71;
+  const Real t84 = q0r2_x * t60;
+  const Real t87 = front_contactbx2p_x - front_contactbd2p_x * t71;
+  const Real t90 = front_contactbx2p_z - front_contactbd2p_z * t71;
+  const Real t93 = front_contactbx3_x * t66 + ((q0r2_y * s2 + c2 * t66) * t71 - q0r2_y * front_contactbx3_y);
+  const Real q012 = state.y[4] * q0d2;
   const Real q033 = state.y[6] * q0d3;
   const Real q003 = q0d3 * state.y[3];
   const Real q0r0_x = Real(1.0) - (q022 + q033);
@@ -1587,11 +1585,11 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real t485 = t481 * t484;
   const Real t493 = Real(1.0) / (t481 * t485 - (t463 * t482 - (t438 * t467 - (t401 * t446 - (t354 * t414 -
       (p_7_0f_x * t373 + Real(94.0)))))));
-  const Real t495 = model.rear_radius * q0r2_x + t96 * t376;
-  const Real t503 = t417 * t495 - (t96 * t402 - (q0r2_y * model.rear_radius + t85 * t92));
-  const Real t510 = t449 * t503 - (t439 * t495 - (Real(1.0) + t96 * t407));
-  const Real t516 = t470 * t510 - (t464 * t503 + (t96 * t411 - t443 * t495));
-  const Real t522 = t485 * t516 - (t482 * t510 - (t467 * t503 + (t96 * t414 - t446 * t495)));
+  const Real t495 = model.rear_radius * q0r2_x + t84 * t376;
+  const Real t503 = t417 * t495 - (t84 * t402 - (t60 * t80 + q0r2_y * model.rear_radius));
+  const Real t510 = t449 * t503 - (t439 * t495 - (Real(1.0) + t84 * t407));
+  const Real t516 = t470 * t510 - (t464 * t503 + (t84 * t411 - t443 * t495));
+  const Real t522 = t485 * t516 - (t482 * t510 - (t467 * t503 + (t84 * t414 - t446 * t495)));
   const Real t524 = model.rear_radius * q0r0_x + rear_contacts1bn0_z * t376;
   const Real t533 = t417 * t524 - (rear_contacts1bn0_z * t402 - (t120 + (q0r1_x * rear_contactc_z - q0r2_x *
       rear_contactc_y)));
@@ -1605,12 +1603,12 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real t569 = t449 * t563 - (rear_contacts2bn0_z * t407 + t439 * t554);
   const Real t576 = t470 * t569 - (t464 * t563 - (t443 * t554 + (Real(1.0) + rear_contacts2bn0_z * t411)));
   const Real t582 = t485 * t576 - (t482 * t569 - (t467 * t563 - (rear_contacts2bn0_z * t414 + t446 * t554)));
-  const Real t585 = t79 * t321 + (q0r2_x * t75 - q0r2_y * t76);
-  const Real t594 = t376 * t585 - (t79 * t355 + (q0r2_x * t73 - t76 * t85));
-  const Real t603 = t417 * t594 - (t402 * t585 + (t79 * t361 + (q0r2_y * t73 - t75 * t85)));
-  const Real t611 = t449 * t603 - (t439 * t594 - (t407 * t585 - (Real(1.0) + t79 * t366)));
-  const Real t618 = t470 * t611 - (t464 * t603 - (t443 * t594 + (t79 * t370 - t411 * t585)));
-  const Real t625 = t485 * t618 - (t482 * t611 - (t467 * t603 - (t446 * t594 + (t79 * t373 - t414 * t585))));
+  const Real t585 = t93 * t321 + (q0r2_x * t82 - q0r2_y * t87);
+  const Real t594 = t376 * t585 - (t93 * t355 - (t80 * t87 - q0r2_x * t90));
+  const Real t603 = t417 * t594 - (t402 * t585 + (t93 * t361 - (t80 * t82 - q0r2_y * t90)));
+  const Real t611 = t449 * t603 - (t439 * t594 - (t407 * t585 - (Real(1.0) + t93 * t366)));
+  const Real t618 = t470 * t611 - (t464 * t603 - (t443 * t594 + (t93 * t370 - t411 * t585)));
+  const Real t625 = t485 * t618 - (t482 * t611 - (t467 * t603 - (t446 * t594 + (t93 * t373 - t414 * t585))));
   const Real t633 = front_contacts1bm_z * t321 + (front_contacts1bn3p_x * t311 + (front_contactbx2p_x * q0r0_y
       + (front_contacts1bn0_z - front_contactbx3_x * q0r0_x)));
   const Real t644 = t376 * t633 - (front_contacts1bm_z * t355 + (front_contacts1bn3p_x * t315 -
@@ -1638,7 +1636,7 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real t745 = t448 * t533;
   const Real t746 = t416 * t524;
   const Real t747 = rear_contacts1bn0_z * t375;
-  const Real t758 = t96 * t747 - (t495 * t746 - (t503 * t745 - (t510 * t744 + (t522 * t742 - t516 * t743))));
+  const Real t758 = t84 * t747 - (t495 * t746 - (t503 * t745 - (t510 * t744 + (t522 * t742 - t516 * t743))));
   const Real t768 = t493 * t582;
   const Real t769 = t484 * t576;
   const Real t770 = t469 * t569;
@@ -1646,14 +1644,14 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real t772 = t416 * t554;
   const Real t773 = rear_contacts2bn0_z * t375;
   const Real t774 = rear_contacts2bn0_y * Real(8.333333333333334);
-  const Real t785 = t96 * t773 + (t495 * t772 - (t503 * t771 - (t510 * t770 + (t522 * t768 - t516 * t769))));
+  const Real t785 = t84 * t773 + (t495 * t772 - (t503 * t771 - (t510 * t770 + (t522 * t768 - t516 * t769))));
   const Real t800 = t493 * t625;
   const Real t801 = t484 * t618;
   const Real t802 = t469 * t611;
   const Real t803 = t448 * t603;
   const Real t804 = t416 * t594;
   const Real t805 = t375 * t585;
-  const Real t816 = t96 * t805 - (t495 * t804 - (t503 * t803 - (t510 * t802 + (t522 * t800 - t516 * t801))));
+  const Real t816 = t84 * t805 - (t495 * t804 - (t503 * t803 - (t510 * t802 + (t522 * t800 - t516 * t801))));
   const Real t837 = t493 * t677;
   const Real t838 = t484 * t669;
   const Real t839 = t469 * t662;
@@ -1661,7 +1659,7 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real t841 = t416 * t644;
   const Real t842 = t375 * t633;
   const Real t843 = front_contacts1bm_z * model.c29;
-  const Real t854 = t96 * t842 - (t495 * t841 - (t503 * t840 - (t510 * t839 + (t522 * t837 - t516 * t838))));
+  const Real t854 = t84 * t842 - (t495 * t841 - (t503 * t840 - (t510 * t839 + (t522 * t837 - t516 * t838))));
   const Real t883 = t493 * t729;
   const Real t884 = t484 * t722;
   const Real t885 = t469 * t714;
@@ -1670,8 +1668,8 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real t888 = t375 * t685;
   const Real t889 = front_contacts2bm_z * model.c29;
   const Real t890 = front_contacts2bn3p_x * Real(3.571428571428571);
-  const Real t901 = t96 * t888 - (t495 * t887 - (t503 * t886 - (t510 * t885 + (t522 * t883 - t516 * t884))));
-  const Real t944 = Real(1.0) / (t96 * (t96 * t375) - (t495 * (t416 * t495) - (t503 * (t448 * t503) - (t510 *
+  const Real t901 = t84 * t888 - (t495 * t887 - (t503 * t886 - (t510 * t885 + (t522 * t883 - t516 * t884))));
+  const Real t944 = Real(1.0) / (t84 * (t84 * t375) - (t495 * (t416 * t495) - (t503 * (t448 * t503) - (t510 *
       (t469 * t510) + (t522 * (t493 * t522) - t516 * (t484 * t516))))) + Real(1.8087085566416913e-12));
   const Real t945 = t758 * t944;
   const Real t956 = t785 * t944;
@@ -1704,12 +1702,12 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
       t769))))))) + Real(8.816994788327498e-12));
   const Real t1046 = t1020 * t1045;
   const Real t1059 = t1030 * t1045;
-  const Real t1069 = t1020 * t1059 - (t973 * t1022 - (t816 * t976 + (t79 * t843 - (t585 * t842 - (t594 * t841
+  const Real t1069 = t1020 * t1059 - (t973 * t1022 - (t816 * t976 + (t93 * t843 - (t585 * t842 - (t594 * t841
       - (t603 * t840 - (t611 * t839 + (t625 * t837 - t618 * t838))))))));
   const Real t1071 = t1041 * t1045;
-  const Real t1081 = t1020 * t1071 - (t973 * t1033 - (t816 * t987 + (t79 * t889 - (t585 * t888 - (t594 * t887
+  const Real t1081 = t1020 * t1071 - (t973 * t1033 - (t816 * t987 + (t93 * t889 - (t585 * t888 - (t594 * t887
       - (t603 * t886 - (t611 * t885 + (t625 * t883 - t618 * t884))))))));
-  const Real t1084 = Real(1.0) / (t1020 * t1046 - (t973 * t1012 - (t816 * t966 + (model.c29 * (t79 * t79) -
+  const Real t1084 = Real(1.0) / (t1020 * t1046 - (t973 * t1012 - (t816 * t966 + (model.c29 * (t93 * t93) -
       (t585 * t805 - (t594 * t804 - (t603 * t803 - (t611 * t802 + (t625 * t800 - t618 * t801)))))))) -
       Real(3.988016169236579e-12));
   const Real t1085 = t1069 * t1084;
@@ -1750,11 +1748,11 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real t1299 = t417 * t1290 - (t439 * t1283 - (t443 * t1278 - (t416 * (t696 * t1167 + (t644 * t1169 -
       (t594 * t1173 - (t554 * t1179 - (t495 * t1197 + t524 * t1187))))) - t446 * t1275)));
   const Real t1310 = t376 * t1299 - (t402 * t1290 - (t407 * t1283 - (t411 * t1278 - (t375 * (t685 * t1167 +
-      (t633 * t1169 - (t585 * t1173 + (rear_contacts2bn0_z * t1179 + (t96 * t1197 + rear_contacts1bn0_z *
+      (t633 * t1169 - (t585 * t1173 + (rear_contacts2bn0_z * t1179 + (t84 * t1197 + rear_contacts1bn0_z *
       t1187))))) - t414 * t1275))));
   const Real t1312 = t1299 + Real(8.333333333333334) * (rear_contacts1bn0_y * t1187 - rear_contacts2bn0_y *
       t1179);
-  const Real t1313 = model.c29 * (front_contacts2bm_z * t1167 - (t79 * t1173 - front_contacts1bm_z * t1169));
+  const Real t1313 = model.c29 * (front_contacts2bm_z * t1167 - (t93 * t1173 - front_contacts1bm_z * t1169));
   const Real t1314 = t373 * t1275;
   const Real t1315 = t370 * t1278;
   const Real t1316 = t366 * t1283;
@@ -1830,14 +1828,14 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
       q0r2_y_2 * c2_2);
   const Real t1469 = Real(1.0) - front_contactbd0p_z_2 * front_contactbd0p_z_2;
   const Real front_contactup_2 = detail::square_root(t1469);
-  const Real t1478 = Real(0.9510565162951535) * q0r2_x_2 - Real(0.3090169943749474) * q0r2_z_2;
-  const Real t1483 = model.c30 * ((front_contactbd0p_z_2 + front_contactbd0p_z_2) / front_contactup_2);
-  const Real t1488 = front_contactbx2p_z_2 - front_contactbd2p_z_2 * t1483;
-  const Real t1490 = front_contactbx3_x_2 + c2_2 * t1483;
-  const Real t1491 = front_contactbx2p_x_2 - front_contactbd2p_x_2 * t1483;
-  const Real q012_2 = t1381 * q0d1_2;
-  const Real t1499 = t1380 * t1380 - (t1379 * t1379 + (t1382 * t1382 - t1381 * t1381));
-  const Real t1504 = model.c31 * ((q0r2_y_2 + q0r2_y_2) / rear_contactup_2);
+  const Real t1474 = model.c31 * ((q0r2_y_2 + q0r2_y_2) / rear_contactup_2);
+  const Real t1482 = Real(0.9510565162951535) * q0r2_x_2 - Real(0.3090169943749474) * q0r2_z_2;
+  const Real t1486 = model.c32 * ((front_contactbd0p_z_2 + front_contactbd0p_z_2) / front_contactup_2);
+  const Real t1493 = t1381 * t1381 - (t1382 * t1382 + (t1379 * t1379 - t1380 * t1380));
+  const Real t1495 = front_contactbx3_x_2 + c2_2 * t1486;
+  const Real t1500 = front_contactbx2p_x_2 - front_contactbd2p_x_2 * t1486;
+  const Real t1503 = front_contactbx2p_z_2 - front_contactbd2p_z_2 * t1486;
+  const Real q012_2 = t1380 * q0d2_2;
   const Real q033_2 = t1382 * q0d3_2;
   const Real q003_2 = t1379 * q0d3_2;
   const Real q0r0_x_2 = q022_2 - (Real(1.0) - q033_2);
@@ -1900,17 +1898,17 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
       front_contactbx2p_z_2 * q0r1_x_2);
   const Real front_contacts2bm_z_3 = front_contactbx2p_x_2 * q0r1_y_2 + (front_contacts2bn0_z_2 -
       front_contactbx3_x_2 * q0r1_x_2);
-  const Real t1658 = q0r2_x_2 * t1504 * state.z[5] - (model.rear_radius * (q0r2_x_2 * state.z[4]) +
-      (state.z[2] + (model.rear_radius * q0r2_y_2 + t1499 * t1504) * state.z[3]));
+  const Real t1658 = q0r2_x_2 * t1474 * state.z[5] - (model.rear_radius * (q0r2_x_2 * state.z[4]) +
+      (state.z[2] + (t1474 * t1493 + model.rear_radius * q0r2_y_2) * state.z[3]));
   const Real t1689 = t945 * t1658 + (rear_contacts1bn0_y_2 * state.z[6] + (rear_contacts1bn0_z_2 * state.z[5]
       + (rear_contacts1bm_y * state.z[4] + (state.z[0] - rear_contacts1bm_x * state.z[3]))));
   const Real t1700 = t1000 * t1689 - (t956 * t1658 - (rear_contacts2bn0_y_2 * state.z[6] +
       (rear_contacts2bn0_z_2 * state.z[5] + (rear_contacts2bm_y * state.z[4] + (state.z[1] -
       rear_contacts2bm_x * state.z[3])))));
-  const Real t1711 = t1046 * t1700 - (t1012 * t1689 - (t966 * t1658 + ((front_contactbx3_x_2 * t1478 + ((c2_2
-      * t1478 + q0r2_y_2 * s2_2) * t1483 - q0r2_y_2 * front_contactbx3_y_2)) * state.z[7] + ((q0r2_x_2 * t1490
-      - q0r2_y_2 * t1491) * state.z[5] - ((q0r2_x_2 * t1488 + t1491 * t1499) * state.z[4] + (state.z[2] +
-      (q0r2_y_2 * t1488 + t1490 * t1499) * state.z[3]))))));
+  const Real t1711 = t1046 * t1700 - (t1012 * t1689 - (t966 * t1658 + ((front_contactbx3_x_2 * t1482 +
+      ((q0r2_y_2 * s2_2 + c2_2 * t1482) * t1486 - q0r2_y_2 * front_contactbx3_y_2)) * state.z[7] + ((q0r2_x_2
+      * t1495 - q0r2_y_2 * t1500) * state.z[5] - ((t1493 * t1500 + q0r2_x_2 * t1503) * state.z[4] +
+      (state.z[2] + (t1493 * t1495 + q0r2_y_2 * t1503) * state.z[3]))))));
   const Real t1723 = t1085 * t1711 - (t1059 * t1700 - (t1022 * t1689 - (t976 * t1658 +
       (front_contacts1bn3p_x_2 * state.z[8] + (front_contacts1bm_z_2 * state.z[7] - (front_contacts1bm_z_3 *
       state.z[5] - (front_contacts1bm_y * state.z[4] + (state.z[0] + front_contacts1bm_x * state.z[3]))))))));
@@ -1935,7 +1933,7 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real t1873 = t417 * t1864 - (t439 * t1857 - (t443 * t1852 - (t416 * (t696 * t1741 + (t644 * t1743 -
       (t594 * t1747 - (t554 * t1753 - (t495 * t1771 + t524 * t1761))))) - t446 * t1849)));
   const Real t1884 = t376 * t1873 - (t402 * t1864 - (t407 * t1857 - (t411 * t1852 - (t375 * (t685 * t1741 +
-      (t633 * t1743 - (t585 * t1747 + (rear_contacts2bn0_z * t1753 + (t96 * t1771 + rear_contacts1bn0_z *
+      (t633 * t1743 - (t585 * t1747 + (rear_contacts2bn0_z * t1753 + (t84 * t1771 + rear_contacts1bn0_z *
       t1761))))) - t414 * t1849))));
   closed.y[0] = t1275 + state.y[0];
   closed.y[1] = t1278 + state.y[1];
@@ -1956,7 +1954,7 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   closed.z[6] = Real(8.333333333333334) * (rear_contacts1bn0_y * t1761 - rear_contacts2bn0_y * t1753) +
       (state.z[6] + t1873);
   closed.z[7] = t321 * t1884 - (t355 * t1873 + (t361 * t1864 + (t366 * t1857 - (t370 * t1852 + (t373 * t1849 +
-      (state.z[7] - model.c29 * (front_contacts2bm_z * t1741 - (t79 * t1747 - front_contacts1bm_z *
+      (state.z[7] - model.c29 * (front_contacts2bm_z * t1741 - (t93 * t1747 - front_contacts1bm_z *
       t1743))))))));
   closed.z[8] = -(t311 * t1884 - (t315 * t1873 + (t318 * t1864 + (state.z[8] - Real(3.571428571428571) *
       (front_contacts1bn3p_x * t1743 + front_contacts2bn3p_x * t1741)))));
@@ -1990,8 +1988,8 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   detail::sine_cosine(state.y[8], s2, c2);
   const Real front_contactbx3_x = s2 * model.r_front_y;
   const Real front_contactbx3_y = c2 * model.r_front_y;
-  const Real front_contactbx2p_x = front_contactbx3_y * Real(0.9510565162951535) + model.c32;
-  const Real front_contactbx2p_z = front_contactbx3_y * Real(0.3090169943749474) + model.c33;
+  const Real front_contactbx2p_x = front_contactbx3_y * Real(0.9510565162951535) + model.c33;
+  const Real front_contactbx2p_z = front_contactbx3_y * Real(0.3090169943749474) + model.c34;
   const Real front_contactbd2p_x = s2 * Real(0.9510565162951535);
   const Real front_contactbd2p_z = s2 * Real(0.3090169943749474);
   const Real front_contactbd0p_z = q0r2_y * c2 - (q0r2_x * front_contactbd2p_x + q0r2_z *
@@ -2000,15 +1998,15 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real front_contactup = detail::square_root(t52);
   const Real g_front_contact = q0r2_x * front_contactbx2p_x + (state.y[2] + (q0r2_y * front_contactbx3_x +
       (q0r2_z * front_contactbx2p_z + front_contactup * model.front_radius)));
-  const Real t66 = q0r2_x * Real(0.9510565162951535) + q0r2_z * Real(0.3090169943749474);
-  const Real t72 = (front_contactbd0p_z + front_contactbd0p_z) / front_contactup * model.c30;
-  const Real t77 = front_contactbx2p_z + front_contactbd2p_z * t72;
-  const Real t79 = front_contactbx3_x - c2 * t72;
-  const Real t80 = front_contactbx2p_x + front_contactbd2p_x * t72;
-  const Real q012 = q0d1 * state.y[5];
-  const Real t89 = (q011 + q022) * Real(0.5) - (state.y[6] * state.y[6] + state.y[3] * state.y[3]);
-  const Real t95 = (q0r2_y + q0r2_y) / rear_contactup * model.c31;
+  const Real t64 = (q0r2_y + q0r2_y) / rear_contactup * model.c31;
+  const Real t70 = q0r2_x * Real(0.9510565162951535) + q0r2_z * Real(0.3090169943749474);
+  const Real t75 = (front_contactbd0p_z + front_contactbd0p_z) / front_contactup * model.c32;
+  const Real t84 = (q011 + q022) * Real(0.5) - (state.y[6] * state.y[6] + state.y[3] * state.y[3]);
+  const Real t86 = front_contactbx3_x - c2 * t75;
+  const Real t91 = front_contactbx2p_x + front_contactbd2p_x * t75;
+  const Real t94 = front_contactbx2p_z + front_contactbd2p_z * t75;
   const Real q033 = state.y[6] * q0d3;
+  const Real q012 = state.y[4] * q0d2;
   const Real q003 = q0d3 * state.y[3];
   const Real q0r0_x = q033 + (q022 - Real(1.0));
   const Real q0r0_y = q012 - q003;
@@ -2082,13 +2080,13 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   g[3] = -g_front_contact;
   g[4] = Real(0.0);
   g[5] = Real(0.0);
-  g_rate[0] = -((q0r2_y * model.rear_radius + t89 * t95) * state.z[3] + (state.z[2] - (model.rear_radius *
-      (q0r2_x * state.z[4]) - q0r2_x * t95 * state.z[5])));
+  g_rate[0] = -((t64 * t84 + q0r2_y * model.rear_radius) * state.z[3] + (state.z[2] - (model.rear_radius *
+      (q0r2_x * state.z[4]) - q0r2_x * t64 * state.z[5])));
   g_rate[1] = -rear_contacts0;
   g_rate[2] = -rear_contacts1;
-  g_rate[3] = -((q0r2_y * t77 - t79 * t89) * state.z[3] + (state.z[2] - ((q0r2_x * t77 - t80 * t89) *
-      state.z[4] + ((q0r2_x * t79 - q0r2_y * t80) * state.z[5] - (q0r2_y * front_contactbx3_y + ((c2 * t66 +
-      q0r2_y * s2) * t72 - front_contactbx3_x * t66)) * state.z[7]))));
+  g_rate[3] = (t84 * t86 - q0r2_y * t94) * state.z[3] - (state.z[2] + ((t84 * t91 - q0r2_x * t94) * state.z[4]
+      - ((q0r2_x * t86 - q0r2_y * t91) * state.z[5] - (q0r2_y * front_contactbx3_y + ((q0r2_y * s2 + c2 * t70)
+      * t75 - front_contactbx3_x * t70)) * state.z[7])));
   g_rate[4] = front_contacts0;
   g_rate[5] = front_contacts1;
 }
@@ -2133,21 +2131,19 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t54 = front_contactbd0p_z + front_contactbd0p_z;
   const Real t55 = Real(1.0) / front_contactup;
   const Real t56 = Real(0.5) * t55;
-  const Real t62 = q0r2_x * Real(0.9510565162951535) + q0r2_z * Real(0.3090169943749474);
-  const Real t65 = c2 * t62 + q0r2_y * s2;
-  const Real t66 = t54 * t56;
-  const Real t68 = t66 * model.front_radius;
-  const Real t69 = c2 * t68;
-  const Real t70 = front_contactbd2p_z * t68;
-  const Real t73 = front_contactbx2p_z - t70;
-  const Real t75 = front_contactbx3_x + t69;
-  const Real t76 = front_contactbx2p_x - front_contactbd2p_x * t68;
-  const Real t79 = front_contactbx3_x * t62 + (t65 * t68 - q0r2_y * front_contactbx3_y);
-  const Real q012 = q0d1 * state.y[5];
-  const Real t84 = q0d1 * t48 - (state.y[3] * state.y[3] + (q0d3 * t50 - q022 * Real(0.5)));
-  const Real t86 = t53 * model.rear_radius;
-  const Real t91 = t51 * t86;
-  const Real t95 = q0r2_x * t91;
+  const Real t58 = t53 * model.rear_radius;
+  const Real t59 = t51 * t58;
+  const Real t67 = q0r2_x * Real(0.9510565162951535) + q0r2_z * Real(0.3090169943749474);
+  const Real t69 = q0r2_y * s2 + c2 * t67;
+  const Real t70 = t54 * t56;
+  const Real t72 = t70 * model.front_radius;
+  const Real t79 = q0d2 * t49 - (q0d3 * t50 + (state.y[3] * state.y[3] - q0d1 * t48));
+  const Real t81 = front_contactbx3_x + c2 * t72;
+  const Real t83 = q0r2_x * t59;
+  const Real t86 = front_contactbx2p_x - front_contactbd2p_x * t72;
+  const Real t89 = front_contactbx2p_z - front_contactbd2p_z * t72;
+  const Real t92 = front_contactbx3_x * t67 + (t69 * t72 - q0r2_y * front_contactbx3_y);
+  const Real q012 = state.y[4] * q0d2;
   const Real q033 = state.y[6] * q0d3;
   const Real q003 = q0d3 * state.y[3];
   const Real q0r0_x = Real(1.0) - (q022 + q033);
@@ -2156,22 +2152,21 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real q0r1_y = t14 + q033;
   const Real q0r1_z = q023 - q001;
   const Real t106 = model.rear_radius * q0r1_y;
-  const Real rear_contactc_y = t91 * q0r1_y;
+  const Real rear_contactc_y = t59 * q0r1_y;
   const Real rear_contactc_z = model.rear_radius * (t17 / rear_contactup);
   const Real rear_contacts1bn0_y = t52 * t106;
   const Real rear_contacts1bn0_z = q0r1_z * rear_contactc_z + q0r2_z * rear_contactc_y;
   const Real t116 = model.rear_radius * q0r0_y;
   const Real q0r0_z = q013 + q002;
-  const Real rear_contactc_x = t91 * q0r0_y;
+  const Real rear_contactc_x = t59 * q0r0_y;
   const Real rear_contacts2bn0_y = t52 * t116;
   const Real rear_contacts2bn0_z = rear_contactc_z * q0r0_z - q0r2_z * rear_contactc_x;
   const Real front_contactbd0p_y = front_contactbd2p_z * q0r1_z - (front_contactbd2p_x * q0r1_x + c2 *
       q0r1_y);
   const Real t132 = model.front_radius * front_contactbd0p_y;
-  const Real front_contactc_y = t66 * t132;
+  const Real front_contactc_y = t70 * t132;
   const Real front_contactc_z = model.front_radius * (t44 / front_contactup);
-  const Real t137 = Real(0.9510565162951535) * q0r0_x;
-  const Real front_contacts1bf2_y = Real(0.3090169943749474) * q0r0_z - t137;
+  const Real front_contacts1bf2_y = Real(0.3090169943749474) * q0r0_z - Real(0.9510565162951535) * q0r0_x;
   const Real front_contacts1bn0_x = q0r1_x * front_contactc_z - q0r2_x * front_contactc_y;
   const Real front_contacts1bn0_y = q0r1_y * front_contactc_z + q0r2_y * front_contactc_y;
   const Real front_contacts1bn0_z = q0r1_z * front_contactc_z + q0r2_z * front_contactc_y;
@@ -2182,7 +2177,8 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
       (Real(0.3090169943749474) * front_contacts1bn0_x + Real(0.9510565162951535) * front_contacts1bn0_z));
   const Real front_contactbd0p_x = c2 * q0r0_y + s2 * front_contacts1bf2_y;
   const Real t170 = model.front_radius * front_contactbd0p_x;
-  const Real front_contactc_x = t66 * t170;
+  const Real front_contactc_x = t70 * t170;
+  const Real front_contacts2bf2_y = Real(0.3090169943749474) * q0r1_z - Real(0.9510565162951535) * q0r1_x;
   const Real front_contacts2bn0_x = q0r0_x * front_contactc_z - q0r2_x * front_contactc_x;
   const Real front_contacts2bn0_y = q0r0_y * front_contactc_z - q0r2_y * front_contactc_x;
   const Real front_contacts2bn0_z = q0r0_z * front_contactc_z + q0r2_z * front_contactc_x;
@@ -2201,31 +2197,31 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real h2b_y = c2 * model.front_h_y;
   const Real h2at2_x = Real(0.9510565162951535) * h2b_y;
   const Real h2at2_z = Real(0.3090169943749474) * h2b_y;
-  const Real t222 = Real(0.3090169943749474) * S2b_yz;
-  const Real S2at2r0_y = t222 + Real(0.9510565162951535) * S2b_yy;
-  const Real t225 = Real(0.9510565162951535) * S2b_yz;
-  const Real S2at2r0_z = t225 + Real(0.04326237921249264);
-  const Real S2at2r2_y = t225 - Real(0.3090169943749474) * S2b_yy;
+  const Real t225 = Real(0.3090169943749474) * S2b_yz;
+  const Real S2at2r0_y = t225 + Real(0.9510565162951535) * S2b_yy;
+  const Real t228 = Real(0.9510565162951535) * S2b_yz;
+  const Real S2at2r0_z = t228 + Real(0.04326237921249264);
+  const Real S2at2r2_y = t228 - Real(0.3090169943749474) * S2b_yy;
   const Real h2c_x = h2at2_x + model.c6;
   const Real h2c_z = h2at2_z + model.c7;
-  const Real t240 = h2b_x * model.r_steer_x;
-  const Real S2c_xy = t240 + (Real(0.3090169943749474) * S2b_xz - Real(0.9510565162951535) * S2b_xy);
-  const Real t251 = h2at2_z - model.h_z;
+  const Real t243 = h2b_x * model.r_steer_x;
+  const Real S2c_xy = t243 + (Real(0.3090169943749474) * S2b_xz - Real(0.9510565162951535) * S2b_xy);
+  const Real t254 = h2at2_z - model.h_z;
   const Real S2c_xz = Real(0.3090169943749474) * (S2at2r0_y - model.SR_z) + ((h2at2_x + model.c9) *
-      model.r_steer_z - (Real(0.9510565162951535) * S2at2r0_z - model.r_steer_x * t251)) +
+      model.r_steer_z - (Real(0.9510565162951535) * S2at2r0_z - model.r_steer_x * t254)) +
       Real(25.349999999999998);
   const Real S2c_yy = S2b_xx - Real(0.5002999999999995);
-  const Real t260 = h2b_x * model.r_steer_z;
-  const Real S2c_yz = t260 - (Real(0.3090169943749474) * S2b_xy + Real(0.9510565162951535) * S2b_xz);
+  const Real t263 = h2b_x * model.r_steer_z;
+  const Real S2c_yz = t263 - (Real(0.3090169943749474) * S2b_xy + Real(0.9510565162951535) * S2b_xz);
   const Real S1c_xx = (h2at2_x + model.h_x) * model.c14 + (Real(0.9510565162951535) * S2at2r0_y +
       Real(0.3090169943749474) * (S2at2r0_z + model.SR_x)) + model.c16;
-  const Real S1c_zz = t251 * model.c17 - (Real(0.3090169943749474) * S2at2r2_y + Real(0.9510565162951535) *
-      (t222 - model.c18)) + model.c19;
+  const Real S1c_zz = t254 * model.c17 - (Real(0.3090169943749474) * S2at2r2_y + Real(0.9510565162951535) *
+      (t225 - model.c18)) + model.c19;
   const Real p_7_2l_x = h2b_y * model.r_steer_z;
   const Real p_7_2l_z = h2b_y * model.r_steer_x;
-  const Real p_7_2n_x = t225 - p_7_2l_x + model.c20;
-  const Real p_7_2n_y = t260 * Real(0.9510565162951535) - (S2b_xz + t240 * Real(0.3090169943749474));
-  const Real p_7_2n_z = t222 + p_7_2l_z - model.c21;
+  const Real p_7_2n_x = t228 - p_7_2l_x + model.c20;
+  const Real p_7_2n_y = t263 * Real(0.9510565162951535) - (S2b_xz + t243 * Real(0.3090169943749474));
+  const Real p_7_2n_z = t225 + p_7_2l_z - model.c21;
   const Real p_7_0f_x = front_contactbd0p_x * model.front_h_y;
   const Real p_7_0f_y = front_contactbd0p_y * model.front_h_y;
   const Real p_7_0f_z = front_contactbd0p_z * model.front_h_y;
@@ -2233,250 +2229,246 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real p_8_3N_y = s2 * Real(0.28);
   const Real p_8_2n_x = Real(0.9510565162951535) * p_8_3N_y;
   const Real p_8_2n_z = Real(0.3090169943749474) * p_8_3N_y;
-  const Real t324 = p_8_2n_z * Real(3.571428571428571);
-  const Real t328 = p_8_3N_x * Real(3.571428571428571);
-  const Real t331 = p_8_2n_x * Real(3.571428571428571);
-  const Real t334 = p_7_2n_z * model.c29;
-  const Real t341 = p_7_2n_y * t334 + (S2c_yz - p_8_3N_x * t324);
-  const Real t344 = p_7_2n_x * t334 - (S2c_xz + p_8_2n_x * t324);
-  const Real t347 = p_7_0f_z * t334 + (q0r2_x * h2b_x - q0r2_y * h2c_x);
-  const Real t350 = p_7_0f_y * t334 - (q0r1_x * h2b_x + q0r1_y * h2c_x);
-  const Real t353 = p_7_0f_x * t334 - (q0r0_x * h2b_x - q0r0_y * h2c_x);
-  const Real t354 = p_7_2n_y * model.c29;
-  const Real t360 = p_7_2n_x * model.c29;
-  const Real t365 = p_7_0f_z * model.c29;
-  const Real t369 = p_7_0f_y * model.c29;
-  const Real t372 = p_7_0f_x * model.c29;
-  const Real t374 = Real(1.0) / (p_7_2n_z * t334 - (p_8_2n_z * t324 + (S2c_yy - S1c_xx)));
-  const Real t375 = t341 * t374;
-  const Real t386 = t344 * t375 - (p_7_2n_x * t354 + (S2c_xy - p_8_2n_x * t328));
-  const Real t390 = t347 * t375 - (p_7_0f_z * t354 + (q0r2_x * h2c_z - q0r2_z * h2c_x));
-  const Real t394 = t350 * t375 - (p_7_0f_y * t354 - (q0r1_x * h2c_z + q0r1_z * h2c_x));
-  const Real t398 = t353 * t375 - (p_7_0f_x * t354 - (q0r0_x * h2c_z + q0r0_z * h2c_x));
-  const Real t399 = t344 * t374;
-  const Real t404 = t347 * t374;
-  const Real t408 = t350 * t374;
-  const Real t411 = t353 * t374;
-  const Real t413 = Real(1.0) / (t341 * t375 - (p_7_2n_y * t354 - (p_8_3N_x * t328 - (S1c_xx + S1c_zz))) +
+  const Real t327 = p_8_2n_z * Real(3.571428571428571);
+  const Real t331 = p_8_3N_x * Real(3.571428571428571);
+  const Real t334 = p_8_2n_x * Real(3.571428571428571);
+  const Real t337 = p_7_2n_z * model.c29;
+  const Real t344 = p_7_2n_y * t337 + (S2c_yz - p_8_3N_x * t327);
+  const Real t347 = p_7_2n_x * t337 - (S2c_xz + p_8_2n_x * t327);
+  const Real t350 = p_7_0f_z * t337 + (q0r2_x * h2b_x - q0r2_y * h2c_x);
+  const Real t353 = p_7_0f_y * t337 - (q0r1_x * h2b_x + q0r1_y * h2c_x);
+  const Real t356 = p_7_0f_x * t337 - (q0r0_x * h2b_x - q0r0_y * h2c_x);
+  const Real t357 = p_7_2n_y * model.c29;
+  const Real t363 = p_7_2n_x * model.c29;
+  const Real t368 = p_7_0f_z * model.c29;
+  const Real t372 = p_7_0f_y * model.c29;
+  const Real t375 = p_7_0f_x * model.c29;
+  const Real t377 = Real(1.0) / (p_7_2n_z * t337 - (p_8_2n_z * t327 + (S2c_yy - S1c_xx)));
+  const Real t378 = t344 * t377;
+  const Real t389 = t347 * t378 - (p_7_2n_x * t357 + (S2c_xy - p_8_2n_x * t331));
+  const Real t393 = t350 * t378 - (p_7_0f_z * t357 + (q0r2_x * h2c_z - q0r2_z * h2c_x));
+  const Real t397 = t353 * t378 - (p_7_0f_y * t357 - (q0r1_x * h2c_z + q0r1_z * h2c_x));
+  const Real t401 = t356 * t378 - (p_7_0f_x * t357 - (q0r0_x * h2c_z + q0r0_z * h2c_x));
+  const Real t402 = t347 * t377;
+  const Real t407 = t350 * t377;
+  const Real t411 = t353 * t377;
+  const Real t414 = t356 * t377;
+  const Real t416 = Real(1.0) / (t344 * t378 - (p_7_2n_y * t357 - (p_8_3N_x * t331 - (S1c_xx + S1c_zz))) +
       Real(0.12));
-  const Real t414 = t386 * t413;
-  const Real t425 = t390 * t414 - (t347 * t399 - (p_7_0f_z * t360 + (q0r2_y * h2c_z - q0r2_z * h2b_x)));
-  const Real t430 = t394 * t414 - (t350 * t399 - (p_7_0f_y * t360 + (q0r1_y * h2c_z - q0r1_z * h2b_x)));
-  const Real t435 = t398 * t414 - (t353 * t399 - (p_7_0f_x * t360 - (q0r0_y * h2c_z + q0r0_z * h2b_x)));
-  const Real t436 = t390 * t413;
-  const Real t440 = t394 * t413;
-  const Real t443 = t398 * t413;
-  const Real t445 = Real(1.0) / (t386 * t414 - (t344 * t399 - (p_7_2n_x * t360 - (p_8_2n_x * t331 + (S2c_yy -
+  const Real t417 = t389 * t416;
+  const Real t428 = t393 * t417 - (t350 * t402 - (p_7_0f_z * t363 + (q0r2_y * h2c_z - q0r2_z * h2b_x)));
+  const Real t433 = t397 * t417 - (t353 * t402 - (p_7_0f_y * t363 + (q0r1_y * h2c_z - q0r1_z * h2b_x)));
+  const Real t438 = t401 * t417 - (t356 * t402 - (p_7_0f_x * t363 - (q0r0_y * h2c_z + q0r0_z * h2b_x)));
+  const Real t439 = t393 * t416;
+  const Real t443 = t397 * t416;
+  const Real t446 = t401 * t416;
+  const Real t448 = Real(1.0) / (t389 * t417 - (t347 * t402 - (p_7_2n_x * t363 - (p_8_2n_x * t334 + (S2c_yy -
       S1c_zz)))));
-  const Real t446 = t425 * t445;
-  const Real t456 = t430 * t446 - (t394 * t436 + (p_7_0f_y * t365 - t350 * t404));
-  const Real t460 = t435 * t446 - (t398 * t436 + (p_7_0f_x * t365 - t353 * t404));
-  const Real t461 = t430 * t445;
-  const Real t464 = t435 * t445;
-  const Real t466 = Real(1.0) / (t425 * t446 - (t390 * t436 + (p_7_0f_z * t365 - t347 * t404)) - Real(94.0));
-  const Real t467 = t456 * t466;
-  const Real t478 = t460 * t467 - (t435 * t461 - (t398 * t440 + (p_7_0f_x * t369 - t353 * t408)));
-  const Real t479 = t460 * t466;
-  const Real t481 = Real(1.0) / (t456 * t467 - (t430 * t461 - (t394 * t440 - (t350 * t408 - (p_7_0f_y * t369 +
+  const Real t449 = t428 * t448;
+  const Real t459 = t433 * t449 - (t397 * t439 + (p_7_0f_y * t368 - t353 * t407));
+  const Real t463 = t438 * t449 - (t401 * t439 + (p_7_0f_x * t368 - t356 * t407));
+  const Real t464 = t433 * t448;
+  const Real t467 = t438 * t448;
+  const Real t469 = Real(1.0) / (t428 * t449 - (t393 * t439 + (p_7_0f_z * t368 - t350 * t407)) - Real(94.0));
+  const Real t470 = t459 * t469;
+  const Real t481 = t463 * t470 - (t438 * t464 - (t401 * t443 + (p_7_0f_x * t372 - t356 * t411)));
+  const Real t482 = t463 * t469;
+  const Real t484 = Real(1.0) / (t459 * t470 - (t433 * t464 - (t397 * t443 - (t353 * t411 - (p_7_0f_y * t372 +
       Real(94.0))))));
-  const Real t482 = t478 * t481;
-  const Real t490 = Real(1.0) / (t478 * t482 - (t460 * t479 - (t435 * t464 - (t398 * t443 - (t353 * t411 -
-      (p_7_0f_x * t372 + Real(94.0)))))));
-  const Real t492 = q0r2_x * model.rear_radius + t95 * t375;
-  const Real t500 = t414 * t492 - (t95 * t399 + (q0r2_y * model.rear_radius + t84 * t91));
-  const Real t507 = t446 * t500 - (t436 * t492 - (Real(1.0) + t95 * t404));
-  const Real t513 = t467 * t507 - (t461 * t500 + (t95 * t408 - t440 * t492));
-  const Real t519 = t482 * t513 - (t479 * t507 - (t464 * t500 + (t95 * t411 - t443 * t492)));
-  const Real t521 = model.rear_radius * q0r0_x + rear_contacts1bn0_z * t375;
-  const Real t530 = t414 * t521 - (rear_contacts1bn0_z * t399 + (t116 + (q0r1_x * rear_contactc_z - q0r2_x *
+  const Real t485 = t481 * t484;
+  const Real t493 = Real(1.0) / (t481 * t485 - (t463 * t482 - (t438 * t467 - (t401 * t446 - (t356 * t414 -
+      (p_7_0f_x * t375 + Real(94.0)))))));
+  const Real t495 = q0r2_x * model.rear_radius + t83 * t378;
+  const Real t503 = t417 * t495 - (t83 * t402 + (t59 * t79 + q0r2_y * model.rear_radius));
+  const Real t510 = t449 * t503 - (t439 * t495 - (Real(1.0) + t83 * t407));
+  const Real t516 = t470 * t510 - (t464 * t503 + (t83 * t411 - t443 * t495));
+  const Real t522 = t485 * t516 - (t482 * t510 - (t467 * t503 + (t83 * t414 - t446 * t495)));
+  const Real t524 = model.rear_radius * q0r0_x + rear_contacts1bn0_z * t378;
+  const Real t533 = t417 * t524 - (rear_contacts1bn0_z * t402 + (t116 + (q0r1_x * rear_contactc_z - q0r2_x *
       rear_contactc_y)));
-  const Real t536 = t446 * t530 + (rear_contacts1bn0_z * t404 - t436 * t521);
-  const Real t542 = t467 * t536 - (t461 * t530 + (rear_contacts1bn0_z * t408 - t440 * t521));
-  const Real t549 = t482 * t542 - (t479 * t536 - (t464 * t530 - (t443 * t521 + (Real(1.0) -
-      rear_contacts1bn0_z * t411))));
-  const Real t551 = model.rear_radius * q0r1_x - rear_contacts2bn0_z * t375;
-  const Real t560 = t414 * t551 + (rear_contacts2bn0_z * t399 + (q0r2_x * rear_contactc_x + (t106 + q0r0_x *
+  const Real t539 = t449 * t533 + (rear_contacts1bn0_z * t407 - t439 * t524);
+  const Real t545 = t470 * t539 - (t464 * t533 + (rear_contacts1bn0_z * t411 - t443 * t524));
+  const Real t552 = t485 * t545 - (t482 * t539 - (t467 * t533 - (t446 * t524 + (Real(1.0) -
+      rear_contacts1bn0_z * t414))));
+  const Real t554 = model.rear_radius * q0r1_x - rear_contacts2bn0_z * t378;
+  const Real t563 = t417 * t554 + (rear_contacts2bn0_z * t402 + (q0r2_x * rear_contactc_x + (t106 + q0r0_x *
       rear_contactc_z)));
-  const Real t566 = t446 * t560 - (rear_contacts2bn0_z * t404 + t436 * t551);
-  const Real t573 = t467 * t566 - (t461 * t560 - (t440 * t551 + (Real(1.0) + rear_contacts2bn0_z * t408)));
-  const Real t579 = t482 * t573 - (t479 * t566 - (t464 * t560 - (rear_contacts2bn0_z * t411 + t443 * t551)));
-  const Real t582 = t79 * t334 + (q0r2_x * t75 - q0r2_y * t76);
-  const Real t591 = t375 * t582 - (t79 * t354 + (q0r2_x * t73 - t76 * t84));
-  const Real t600 = t414 * t591 - (t399 * t582 - (t79 * t360 + (q0r2_y * t73 - t75 * t84)));
-  const Real t608 = t446 * t600 - (t436 * t591 - (t404 * t582 - (Real(1.0) + t79 * t365)));
-  const Real t615 = t467 * t608 - (t461 * t600 - (t440 * t591 + (t79 * t369 - t408 * t582)));
-  const Real t622 = t482 * t615 - (t479 * t608 - (t464 * t600 - (t443 * t591 + (t79 * t372 - t411 * t582))));
-  const Real t630 = front_contacts1bm_z * t334 + (front_contacts1bn3p_x * t324 + (front_contactbx2p_x * q0r0_y
+  const Real t569 = t449 * t563 - (rear_contacts2bn0_z * t407 + t439 * t554);
+  const Real t576 = t470 * t569 - (t464 * t563 - (t443 * t554 + (Real(1.0) + rear_contacts2bn0_z * t411)));
+  const Real t582 = t485 * t576 - (t482 * t569 - (t467 * t563 - (rear_contacts2bn0_z * t414 + t446 * t554)));
+  const Real t585 = t92 * t337 + (q0r2_x * t81 - q0r2_y * t86);
+  const Real t594 = t378 * t585 - (t92 * t357 - (t79 * t86 - q0r2_x * t89));
+  const Real t603 = t417 * t594 - (t402 * t585 - (t92 * t363 - (t79 * t81 - q0r2_y * t89)));
+  const Real t611 = t449 * t603 - (t439 * t594 - (t407 * t585 - (Real(1.0) + t92 * t368)));
+  const Real t618 = t470 * t611 - (t464 * t603 - (t443 * t594 + (t92 * t372 - t411 * t585)));
+  const Real t625 = t485 * t618 - (t482 * t611 - (t467 * t603 - (t446 * t594 + (t92 * t375 - t414 * t585))));
+  const Real t633 = front_contacts1bm_z * t337 + (front_contacts1bn3p_x * t327 + (front_contactbx2p_x * q0r0_y
       + (front_contacts1bn0_z - front_contactbx3_x * q0r0_x)));
-  const Real t641 = t375 * t630 - (front_contacts1bm_z * t354 + (front_contacts1bn3p_x * t328 -
+  const Real t644 = t378 * t633 - (front_contacts1bm_z * t357 + (front_contacts1bn3p_x * t331 -
       (front_contactbx2p_x * q0r0_z + (front_contacts1bn0_y + front_contactbx2p_z * q0r0_x))));
-  const Real t652 = t414 * t641 - (t399 * t630 - (front_contacts1bm_z * t360 + (front_contacts1bn3p_x * t331 -
+  const Real t655 = t417 * t644 - (t402 * t633 - (front_contacts1bm_z * t363 + (front_contacts1bn3p_x * t334 -
       (front_contactbx3_x * q0r0_z + (front_contacts1bn0_x + front_contactbx2p_z * q0r0_y)))));
-  const Real t659 = t446 * t652 - (t436 * t641 + (front_contacts1bm_z * t365 - t404 * t630));
-  const Real t666 = t467 * t659 - (t461 * t652 - (t440 * t641 + (front_contacts1bm_z * t369 - t408 * t630)));
-  const Real t674 = t482 * t666 - (t479 * t659 - (t464 * t652 - (t443 * t641 - (t411 * t630 - (Real(1.0) +
-      front_contacts1bm_z * t372)))));
-  const Real t682 = front_contacts2bm_z * t334 + (front_contacts2bn3p_x * t324 - (front_contactbx2p_x * q0r1_y
+  const Real t662 = t449 * t655 - (t439 * t644 + (front_contacts1bm_z * t368 - t407 * t633));
+  const Real t669 = t470 * t662 - (t464 * t655 - (t443 * t644 + (front_contacts1bm_z * t372 - t411 * t633)));
+  const Real t677 = t485 * t669 - (t482 * t662 - (t467 * t655 - (t446 * t644 - (t414 * t633 - (Real(1.0) +
+      front_contacts1bm_z * t375)))));
+  const Real t685 = front_contacts2bm_z * t337 + (front_contacts2bn3p_x * t327 - (front_contactbx2p_x * q0r1_y
       + (front_contacts2bn0_z + front_contactbx3_x * q0r1_x)));
-  const Real t693 = t375 * t682 - (front_contacts2bm_z * t354 + (front_contacts2bn3p_x * t328 -
+  const Real t696 = t378 * t685 - (front_contacts2bm_z * t357 + (front_contacts2bn3p_x * t331 -
       (front_contactbx2p_x * q0r1_z + (front_contacts2bn0_y + front_contactbx2p_z * q0r1_x))));
-  const Real t704 = t414 * t693 - (t399 * t682 - (front_contacts2bm_z * t360 + (front_contacts2bn3p_x * t331 -
+  const Real t707 = t417 * t696 - (t402 * t685 - (front_contacts2bm_z * t363 + (front_contacts2bn3p_x * t334 -
       (front_contactbx3_x * q0r1_z - (front_contacts2bn0_x + front_contactbx2p_z * q0r1_y)))));
-  const Real t711 = t446 * t704 - (t436 * t693 + (front_contacts2bm_z * t365 - t404 * t682));
-  const Real t719 = t467 * t711 - (t461 * t704 - (t440 * t693 - (t408 * t682 - (Real(1.0) +
-      front_contacts2bm_z * t369))));
-  const Real t726 = t482 * t719 - (t479 * t711 - (t464 * t704 - (t443 * t693 + (front_contacts2bm_z * t372 -
-      t411 * t682))));
-  const Real t739 = t490 * t549;
-  const Real t740 = t481 * t542;
-  const Real t741 = t466 * t536;
-  const Real t742 = t445 * t530;
-  const Real t743 = t413 * t521;
-  const Real t744 = rear_contacts1bn0_z * t374;
-  const Real t755 = t95 * t744 - (t492 * t743 - (t500 * t742 - (t507 * t741 + (t519 * t739 - t513 * t740))));
-  const Real t765 = t490 * t579;
-  const Real t766 = t481 * t573;
-  const Real t767 = t466 * t566;
-  const Real t768 = t445 * t560;
-  const Real t769 = t413 * t551;
-  const Real t770 = rear_contacts2bn0_z * t374;
-  const Real t771 = rear_contacts2bn0_y * Real(8.333333333333334);
-  const Real t782 = t95 * t770 + (t492 * t769 - (t500 * t768 - (t507 * t767 + (t519 * t765 - t513 * t766))));
-  const Real t797 = t490 * t622;
-  const Real t798 = t481 * t615;
-  const Real t799 = t466 * t608;
-  const Real t800 = t445 * t600;
-  const Real t801 = t413 * t591;
-  const Real t802 = t374 * t582;
-  const Real t813 = t95 * t802 - (t492 * t801 - (t500 * t800 - (t507 * t799 + (t519 * t797 - t513 * t798))));
-  const Real t834 = t490 * t674;
-  const Real t835 = t481 * t666;
-  const Real t836 = t466 * t659;
-  const Real t837 = t445 * t652;
-  const Real t838 = t413 * t641;
-  const Real t839 = t374 * t630;
-  const Real t840 = front_contacts1bm_z * model.c29;
-  const Real t851 = t95 * t839 - (t492 * t838 - (t500 * t837 - (t507 * t836 + (t519 * t834 - t513 * t835))));
-  const Real t880 = t490 * t726;
-  const Real t881 = t481 * t719;
-  const Real t882 = t466 * t711;
-  const Real t883 = t445 * t704;
-  const Real t884 = t413 * t693;
-  const Real t885 = t374 * t682;
-  const Real t886 = front_contacts2bm_z * model.c29;
-  const Real t887 = front_contacts2bn3p_x * Real(3.571428571428571);
-  const Real t898 = t95 * t885 - (t492 * t884 - (t500 * t883 - (t507 * t882 + (t519 * t880 - t513 * t881))));
-  const Real t941 = Real(1.0) / (t95 * (t95 * t374) - (t492 * (t413 * t492) - (t500 * (t445 * t500) - (t507 *
-      (t466 * t507) + (t519 * (t490 * t519) - t513 * (t481 * t513))))) + Real(1.8087085566416913e-12));
-  const Real t942 = t755 * t941;
-  const Real t953 = t782 * t941;
-  const Real t961 = t755 * t953 + (rear_contacts1bn0_y * t771 - (rear_contacts1bn0_z * t770 + (t521 * t769 -
-      (t530 * t768 - (t536 * t767 + (t549 * t765 - t542 * t766))))));
-  const Real t963 = t813 * t941;
-  const Real t970 = t755 * t963 - (rear_contacts1bn0_z * t802 - (t521 * t801 - (t530 * t800 - (t536 * t799 +
-      (t549 * t797 - t542 * t798)))));
-  const Real t973 = t851 * t941;
-  const Real t980 = t755 * t973 - (rear_contacts1bn0_z * t839 - (t521 * t838 - (t530 * t837 - (t536 * t836 +
-      (t549 * t834 - t542 * t835)))));
-  const Real t984 = t898 * t941;
-  const Real t991 = t755 * t984 - (rear_contacts1bn0_z * t885 - (t521 * t884 - (t530 * t883 - (t536 * t882 +
-      (t549 * t880 - t542 * t881)))));
-  const Real t996 = Real(1.0) / (t755 * t942 - (rear_contacts1bn0_y * rear_contacts1bn0_y *
-      Real(8.333333333333334) + (rear_contacts1bn0_z * t744 - (t521 * t743 - (t530 * t742 - (t536 * t741 +
-      (t549 * t739 - t542 * t740)))))) - Real(7.806783314072456e-11));
-  const Real t997 = t961 * t996;
-  const Real t1009 = t970 * t996;
-  const Real t1017 = t961 * t1009 - (t782 * t963 - (rear_contacts2bn0_z * t802 + (t551 * t801 - (t560 * t800 -
-      (t566 * t799 + (t579 * t797 - t573 * t798))))));
-  const Real t1019 = t980 * t996;
-  const Real t1027 = t961 * t1019 - (t782 * t973 - (rear_contacts2bn0_z * t839 + (t551 * t838 - (t560 * t837 -
-      (t566 * t836 + (t579 * t834 - t573 * t835))))));
-  const Real t1030 = t991 * t996;
-  const Real t1038 = t961 * t1030 - (t782 * t984 - (rear_contacts2bn0_z * t885 + (t551 * t884 - (t560 * t883 -
-      (t566 * t882 + (t579 * t880 - t573 * t881))))));
-  const Real t1042 = Real(1.0) / (t961 * t997 - (t782 * t953 - (rear_contacts2bn0_y * t771 +
-      (rear_contacts2bn0_z * t770 - (t551 * t769 - (t560 * t768 - (t566 * t767 + (t579 * t765 - t573 *
-      t766))))))) + Real(8.816994788327498e-12));
-  const Real t1043 = t1017 * t1042;
-  const Real t1056 = t1027 * t1042;
-  const Real t1066 = t1017 * t1056 - (t970 * t1019 - (t813 * t973 + (t79 * t840 - (t582 * t839 - (t591 * t838
-      - (t600 * t837 - (t608 * t836 + (t622 * t834 - t615 * t835))))))));
-  const Real t1068 = t1038 * t1042;
-  const Real t1078 = t1017 * t1068 - (t970 * t1030 - (t813 * t984 + (t79 * t886 - (t582 * t885 - (t591 * t884
-      - (t600 * t883 - (t608 * t882 + (t622 * t880 - t615 * t881))))))));
-  const Real t1081 = Real(1.0) / (t1017 * t1043 - (t970 * t1009 - (t813 * t963 + (model.c29 * (t79 * t79) -
-      (t582 * t802 - (t591 * t801 - (t600 * t800 - (t608 * t799 + (t622 * t797 - t615 * t798)))))))) -
+  const Real t714 = t449 * t707 - (t439 * t696 + (front_contacts2bm_z * t368 - t407 * t685));
+  const Real t722 = t470 * t714 - (t464 * t707 - (t443 * t696 - (t411 * t685 - (Real(1.0) +
+      front_contacts2bm_z * t372))));
+  const Real t729 = t485 * t722 - (t482 * t714 - (t467 * t707 - (t446 * t696 + (front_contacts2bm_z * t375 -
+      t414 * t685))));
+  const Real t742 = t493 * t552;
+  const Real t743 = t484 * t545;
+  const Real t744 = t469 * t539;
+  const Real t745 = t448 * t533;
+  const Real t746 = t416 * t524;
+  const Real t747 = rear_contacts1bn0_z * t377;
+  const Real t758 = t83 * t747 - (t495 * t746 - (t503 * t745 - (t510 * t744 + (t522 * t742 - t516 * t743))));
+  const Real t768 = t493 * t582;
+  const Real t769 = t484 * t576;
+  const Real t770 = t469 * t569;
+  const Real t771 = t448 * t563;
+  const Real t772 = t416 * t554;
+  const Real t773 = rear_contacts2bn0_z * t377;
+  const Real t774 = rear_contacts2bn0_y * Real(8.333333333333334);
+  const Real t785 = t83 * t773 + (t495 * t772 - (t503 * t771 - (t510 * t770 + (t522 * t768 - t516 * t769))));
+  const Real t800 = t493 * t625;
+  const Real t801 = t484 * t618;
+  const Real t802 = t469 * t611;
+  const Real t803 = t448 * t603;
+  const Real t804 = t416 * t594;
+  const Real t805 = t377 * t585;
+  const Real t816 = t83 * t805 - (t495 * t804 - (t503 * t803 - (t510 * t802 + (t522 * t800 - t516 * t801))));
+  const Real t837 = t493 * t677;
+  const Real t838 = t484 * t669;
+  const Real t839 = t469 * t662;
+  const Real t840 = t448 * t655;
+  const Real t841 = t416 * t644;
+  const Real t842 = t377 * t633;
+  const Real t843 = front_contacts1bm_z * model.c29;
+  const Real t854 = t83 * t842 - (t495 * t841 - (t503 * t840 - (t510 * t839 + (t522 * t837 - t516 * t838))));
+  const Real t883 = t493 * t729;
+  const Real t884 = t484 * t722;
+  const Real t885 = t469 * t714;
+  const Real t886 = t448 * t707;
+  const Real t887 = t416 * t696;
+  const Real t888 = t377 * t685;
+  const Real t889 = front_contacts2bm_z * model.c29;
+  const Real t890 = front_contacts2bn3p_x * Real(3.571428571428571);
+  const Real t901 = t83 * t888 - (t495 * t887 - (t503 * t886 - (t510 * t885 + (t522 * t883 - t516 * t884))));
+  const Real t944 = Real(1.0) / (t83 * (t83 * t377) - (t495 * (t416 * t495) - (t503 * (t448 * t503) - (t510 *
+      (t469 * t510) + (t522 * (t493 * t522) - t516 * (t484 * t516))))) + Real(1.8087085566416913e-12));
+  const Real t945 = t758 * t944;
+  const Real t956 = t785 * t944;
+  const Real t964 = t758 * t956 + (rear_contacts1bn0_y * t774 - (rear_contacts1bn0_z * t773 + (t524 * t772 -
+      (t533 * t771 - (t539 * t770 + (t552 * t768 - t545 * t769))))));
+  const Real t966 = t816 * t944;
+  const Real t973 = t758 * t966 - (rear_contacts1bn0_z * t805 - (t524 * t804 - (t533 * t803 - (t539 * t802 +
+      (t552 * t800 - t545 * t801)))));
+  const Real t976 = t854 * t944;
+  const Real t983 = t758 * t976 - (rear_contacts1bn0_z * t842 - (t524 * t841 - (t533 * t840 - (t539 * t839 +
+      (t552 * t837 - t545 * t838)))));
+  const Real t987 = t901 * t944;
+  const Real t994 = t758 * t987 - (rear_contacts1bn0_z * t888 - (t524 * t887 - (t533 * t886 - (t539 * t885 +
+      (t552 * t883 - t545 * t884)))));
+  const Real t999 = Real(1.0) / (t758 * t945 - (rear_contacts1bn0_y * rear_contacts1bn0_y *
+      Real(8.333333333333334) + (rear_contacts1bn0_z * t747 - (t524 * t746 - (t533 * t745 - (t539 * t744 +
+      (t552 * t742 - t545 * t743)))))) - Real(7.806783314072456e-11));
+  const Real t1000 = t964 * t999;
+  const Real t1012 = t973 * t999;
+  const Real t1020 = t964 * t1012 - (t785 * t966 - (rear_contacts2bn0_z * t805 + (t554 * t804 - (t563 * t803 -
+      (t569 * t802 + (t582 * t800 - t576 * t801))))));
+  const Real t1022 = t983 * t999;
+  const Real t1030 = t964 * t1022 - (t785 * t976 - (rear_contacts2bn0_z * t842 + (t554 * t841 - (t563 * t840 -
+      (t569 * t839 + (t582 * t837 - t576 * t838))))));
+  const Real t1033 = t994 * t999;
+  const Real t1041 = t964 * t1033 - (t785 * t987 - (rear_contacts2bn0_z * t888 + (t554 * t887 - (t563 * t886 -
+      (t569 * t885 + (t582 * t883 - t576 * t884))))));
+  const Real t1045 = Real(1.0) / (t964 * t1000 - (t785 * t956 - (rear_contacts2bn0_y * t774 +
+      (rear_contacts2bn0_z * t773 - (t554 * t772 - (t563 * t771 - (t569 * t770 + (t582 * t768 - t576 *
+      t769))))))) + Real(8.816994788327498e-12));
+  const Real t1046 = t1020 * t1045;
+  const Real t1059 = t1030 * t1045;
+  const Real t1069 = t1020 * t1059 - (t973 * t1022 - (t816 * t976 + (t92 * t843 - (t585 * t842 - (t594 * t841
+      - (t603 * t840 - (t611 * t839 + (t625 * t837 - t618 * t838))))))));
+  const Real t1071 = t1041 * t1045;
+  const Real t1081 = t1020 * t1071 - (t973 * t1033 - (t816 * t987 + (t92 * t889 - (t585 * t888 - (t594 * t887
+      - (t603 * t886 - (t611 * t885 + (t625 * t883 - t618 * t884))))))));
+  const Real t1084 = Real(1.0) / (t1020 * t1046 - (t973 * t1012 - (t816 * t966 + (model.c29 * (t92 * t92) -
+      (t585 * t805 - (t594 * t804 - (t603 * t803 - (t611 * t802 + (t625 * t800 - t618 * t801)))))))) -
       Real(3.988016169236579e-12));
-  const Real t1082 = t1066 * t1081;
-  const Real t1097 = t1078 * t1081;
-  const Real t1109 = t1066 * t1097 - (t1027 * t1068 - (t980 * t1030 - (t851 * t984 - (front_contacts1bn3p_x *
-      t887 - (front_contacts1bm_z * t886 - (t630 * t885 - (t641 * t884 - (t652 * t883 - (t659 * t882 + (t674 *
-      t880 - t666 * t881))))))))));
-  const Real t1111 = Real(1.0) / (t1066 * t1082 - (t1027 * t1056 - (t980 * t1019 - (t851 * t973 -
-      (Real(3.571428571428571) * (front_contacts1bn3p_x * front_contacts1bn3p_x) - (front_contacts1bm_z * t840
-      - (t630 * t839 - (t641 * t838 - (t652 * t837 - (t659 * t836 + (t674 * t834 - t666 * t835)))))))))) +
+  const Real t1085 = t1069 * t1084;
+  const Real t1100 = t1081 * t1084;
+  const Real t1112 = t1069 * t1100 - (t1030 * t1071 - (t983 * t1033 - (t854 * t987 - (front_contacts1bn3p_x *
+      t890 - (front_contacts1bm_z * t889 - (t633 * t888 - (t644 * t887 - (t655 * t886 - (t662 * t885 + (t677 *
+      t883 - t669 * t884))))))))));
+  const Real t1114 = Real(1.0) / (t1069 * t1085 - (t1030 * t1059 - (t983 * t1022 - (t854 * t976 -
+      (Real(3.571428571428571) * (front_contacts1bn3p_x * front_contacts1bn3p_x) - (front_contacts1bm_z * t843
+      - (t633 * t842 - (t644 * t841 - (t655 * t840 - (t662 * t839 + (t677 * t837 - t669 * t838)))))))))) +
       Real(4.6476630875276904e-11));
-  const Real t1112 = t1109 * t1111;
-  const Real t1128 = Real(1.0) / (t1109 * t1112 - (t1078 * t1097 - (t1038 * t1068 - (t991 * t1030 - (t898 *
-      t984 - (front_contacts2bn3p_x * t887 - (front_contacts2bm_z * t886 - (t682 * t885 - (t693 * t884 - (t704
-      * t883 - (t711 * t882 + (t726 * t880 - t719 * t881))))))))))) - Real(2.7054786900152528e-11));
-  const Real t1133 = t50 * state.z[5] + (t48 * state.z[3] + t49 * state.z[4]);
-  const Real t1138 = t49 * state.z[5] + (t47 * state.z[3] - t50 * state.z[4]);
-  const Real t1143 = t48 * state.z[5] - (t50 * state.z[3] + t47 * state.z[4]);
-  const Real t1148 = t47 * state.z[5] - (t49 * state.z[3] - t48 * state.z[4]);
-  const Real t1153 = Real(2.0) * state.y[3];
-  const Real t1155 = t51 * t53;
-  const Real t1159 = t52 * rear_contactc_z * t1155 - (t91 + t91);
-  const Real t1165 = c2 * Real(0.3090169943749474);
-  const Real t1171 = front_contactbx3_x * Real(0.9510565162951535);
-  const Real t1172 = front_contactbx3_x * Real(0.3090169943749474);
-  const Real t1190 = t66 * (t55 * front_contactc_z) - (t68 + t68);
-  const Real t1192 = t55 + t54 * (t66 * (t55 * t56));
-  const Real t1195 = t1143 * (q0d2 + q0d2);
-  const Real t1199 = q0d3 * t1143 - q0d2 * t1148;
-  const Real t1202 = t1148 * (q0d3 + q0d3);
-  const Real t1206 = t1143 * t1153 + q0d2 * t1133;
-  const Real t1208 = t1148 * t1153 - q0d3 * t1133;
-  const Real t1209 = t1138 * (q0d1 + q0d1);
-  const Real t1211 = q0d1 * t1133 - t1138 * t1153;
-  const Real t1213 = q0d1 * t1148 + q0d3 * t1138;
-  const Real t1214 = t1206 + t1213;
-  const Real t1215 = t1199 + t1211;
-  const Real t1217 = q0d1 * t1143 - q0d2 * t1138;
-  const Real t1218 = t1206 - t1213;
-  const Real t1219 = t1199 - t1211;
-  const Real t1220 = t1195 - t1209;
-  const Real t1223 = Real(2.0) * t86 + model.rear_radius * (t51 * (t52 * t53 * t1155));
-  const Real t1225 = model.rear_radius * state.z[3];
-  const Real t1233 = t1195 - t1202;
-  const Real t1236 = rear_contactc_z * state.z[3];
-  const Real t1239 = model.rear_radius * state.z[4];
-  const Real t1241 = rear_contactc_z * state.z[5];
-  const Real t1245 = state.z[4] + state.z[6];
-  const Real t1253 = q0r1_z * t1165 + (s2 * q0r1_y - Real(0.9510565162951535) * (c2 * q0r1_x));
-  const Real t1283 = state.z[7] * t1171 + (front_contactbx3_x * state.z[5] + front_contactbx2p_z *
+  const Real t1115 = t1112 * t1114;
+  const Real t1131 = Real(1.0) / (t1112 * t1115 - (t1081 * t1100 - (t1041 * t1071 - (t994 * t1033 - (t901 *
+      t987 - (front_contacts2bn3p_x * t890 - (front_contacts2bm_z * t889 - (t685 * t888 - (t696 * t887 - (t707
+      * t886 - (t714 * t885 + (t729 * t883 - t722 * t884))))))))))) - Real(2.7054786900152528e-11));
+  const Real t1136 = t50 * state.z[5] + (t48 * state.z[3] + t49 * state.z[4]);
+  const Real t1141 = t49 * state.z[5] + (t47 * state.z[3] - t50 * state.z[4]);
+  const Real t1146 = t48 * state.z[5] - (t50 * state.z[3] + t47 * state.z[4]);
+  const Real t1151 = t47 * state.z[5] - (t49 * state.z[3] - t48 * state.z[4]);
+  const Real t1162 = rear_contactc_z * state.z[5];
+  const Real t1164 = model.rear_radius * state.z[4];
+  const Real t1165 = state.z[4] + state.z[6];
+  const Real t1167 = Real(2.0) * state.y[3];
+  const Real t1170 = t1141 * (q0d1 + q0d1);
+  const Real t1176 = q0d3 * t1141 + q0d1 * t1151;
+  const Real t1180 = q0d2 * t1136;
+  const Real t1182 = t1151 * t1167 - q0d3 * t1136;
+  const Real t1184 = Real(0.9510565162951535) * state.z[7];
+  const Real t1185 = front_contactbx3_x * Real(0.3090169943749474);
+  const Real t1186 = front_contactbx3_x * Real(0.9510565162951535);
+  const Real t1199 = c2 * Real(0.9510565162951535);
+  const Real t1200 = c2 * Real(0.3090169943749474);
+  const Real t1210 = Real(0.3090169943749474) * state.z[7];
+  const Real t1215 = q0r0_y * state.z[5] - q0r0_z * state.z[4];
+  const Real t1227 = front_contactbd2p_x * state.z[8] - (state.z[3] + t1210);
+  const Real t1228 = state.z[4] + c2 * state.z[8];
+  const Real t1229 = state.z[5] + t1184;
+  const Real t1230 = front_contactbd2p_z * state.z[8] + t1229;
+  const Real t1240 = front_contactbx2p_z * state.z[4] + front_contactbx3_x * t1229;
+  const Real t1245 = front_contactbx2p_z * state.z[3] + (front_contactbx3_y * state.z[7] + front_contactbx2p_x
+      * state.z[5]);
+  const Real t1248 = front_contactbx3_x * state.z[3] + (state.z[7] * t1185 - front_contactbx2p_x *
       state.z[4]);
-  const Real t1285 = front_contactbx3_y * state.z[7] + (front_contactbx2p_x * state.z[5] + front_contactbx2p_z
-      * state.z[3]);
-  const Real t1287 = state.z[7] * t1172 - (front_contactbx2p_x * state.z[4] - front_contactbx3_x *
-      state.z[3]);
-  const Real t1291 = front_contactbd2p_x * state.z[8] - (state.z[3] + Real(0.3090169943749474) * state.z[7]);
-  const Real t1293 = state.z[4] + c2 * state.z[8];
-  const Real t1296 = front_contactbd2p_z * state.z[8] + (state.z[5] + Real(0.9510565162951535) * state.z[7]);
-  const Real t1311 = t75 * (t84 * state.z[4] + q0r2_y * state.z[5]);
-  const Real t1316 = q0r2_y * t1245 + (q0r2_x * state.z[3] - q0r2_z * state.z[5]);
-  const Real t1338 = q0r2_z * t1296 - (q0r2_y * t1293 - q0r2_x * t1291);
-  const Real t1355 = rear_contactc_z * t1245 + t91 * t1316;
-  const Real t1368 = front_contactc_z * t1293 + t69 * t1338;
-  const Real t1370 = front_contactc_z * t1296 + t70 * t1338;
-  const Real t1372 = t68 * t1338;
-  const Real t1380 = front_contactc_z * t1291 + front_contactbd2p_x * t1372;
-  const Real t1381 = t1202 + t1209;
-  const Real t1387 = t75 * t1220;
-  const Real t1410 = t65 * state.z[7] + (front_contactbd2p_x * t1214 - (front_contactbd2p_z * t1220 - c2 *
-      t1215));
-  const Real t1425 = t1208 + t1217;
-  const Real t1426 = t1208 - t1217;
+  const Real t1253 = t70 * (t55 * front_contactc_z) - (t72 + t72);
+  const Real t1262 = q0r2_y * t1228 - (q0r2_z * t1230 + q0r2_x * t1227);
+  const Real t1266 = t72 * t1262;
+  const Real t1277 = front_contactc_z * t1230 - front_contactbd2p_z * t1266;
+  const Real t1280 = t1146 * t1167;
+  const Real t1282 = t1280 + (t1176 + t1180);
+  const Real t1284 = q0d2 * t1141 - q0d1 * t1146;
+  const Real t1286 = t1280 - (t1176 - t1180);
+  const Real t1287 = t1182 - t1284;
+  const Real t1288 = t1182 + t1284;
+  const Real t1289 = model.rear_radius * state.z[3];
+  const Real t1290 = rear_contactc_z * state.z[3];
+  const Real t1293 = c2 * t1266 - front_contactc_z * t1228;
+  const Real t1295 = t51 * t53;
+  const Real t1300 = t52 * rear_contactc_z * t1295 - (t59 + t59);
+  const Real t1316 = q0r2_x * state.z[3] - (q0r2_z * state.z[5] - q0r2_y * t1165);
+  const Real t1319 = rear_contactc_z * t1165 + t59 * t1316;
+  const Real t1325 = front_contactbd2p_x * t1266 - front_contactc_z * t1227;
+  const Real t1338 = t79 * state.z[3] + q0r2_x * state.z[5];
+  const Real t1385 = q0d3 * t1146 - (q0d2 * t1151 - (t1141 * t1167 - q0d1 * t1136));
+  const Real t1411 = t1170 - t1146 * (q0d2 + q0d2);
+  const Real t1412 = t1170 + t1151 * (q0d3 + q0d3);
+  const Real t1417 = front_contactbd2p_z * t1411 + (c2 * t1338 + (t69 * state.z[7] + front_contactbd2p_x *
+      t1282));
+  const Real t1435 = t81 * t1411;
   const Real w2p_y = Real(0.3090169943749474) * state.z[5] - Real(0.9510565162951535) * state.z[3];
   const Real w2p_z = Real(0.3090169943749474) * state.z[3] + Real(0.9510565162951535) * state.z[5];
   const Real w2_z = state.z[7] + w2p_z;
@@ -2527,93 +2519,96 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real rf0_z = rf2p_z - (state.z[5] * ruh0 - h2c_z * ruw0);
   const Real tau_2_0 = input.u[0] - (rdn3_y + (w2p_y * rKx2 - (h2b_y * ra2o_y + (state.z[4] * rKy2 - h2b_x *
       ra2_y))));
-  const Real t1608 = t334 * tau_2_0 - (t324 * rQp3 - (model.r_steer_x * rdf2_x - (Real(0.9510565162951535) *
+  const Real t1624 = t337 * tau_2_0 - (t327 * rQp3 - (model.r_steer_x * rdf2_x - (Real(0.9510565162951535) *
       rdn3_y + (Real(0.3090169943749474) * rn2_y + (rdn1_x - (h2c_x * rfallW_y - (h2b_x * rfallW_x +
       (state.z[3] * rSu0_y - state.z[4] * rSu0_x))))))));
-  const Real t1625 = t375 * t1608 - (t354 * tau_2_0 - (t328 * rQp3 - (model.r_steer_z * rf2p_x +
+  const Real t1641 = t378 * t1624 - (t357 * tau_2_0 - (t331 * rQp3 - (model.r_steer_z * rf2p_x +
       (model.r_steer_x * rf2p_z + (rn2b_x - (rKy2 * z2_2 - (S2b_yz * zz_2 - (h2c_z * rfallW_x - (h2c_x *
       rfallW_z - (state.z[3] * rSu0_z + state.z[5] * rSu0_x))))))))));
-  const Real t1641 = t414 * t1625 - (t399 * t1608 - (t360 * tau_2_0 - (t331 * rQp3 + (model.r_steer_z * rdf2_x
+  const Real t1657 = t417 * t1641 - (t402 * t1624 - (t363 * tau_2_0 - (t334 * rQp3 + (model.r_steer_z * rdf2_x
       + (Real(0.9510565162951535) * rn2_y - (Real(0.3090169943749474) * rdn3_y - (rdn1_y + (h2c_z * rfallW_y -
       (h2b_x * rfallW_z - (state.z[4] * rSu0_z + state.z[5] * rSu0_y))))))))));
-  const Real t1653 = t446 * t1641 - (t436 * t1625 - (t404 * t1608 - (t365 * tau_2_0 - (q0r2_z * rf0_z -
+  const Real t1669 = t449 * t1657 - (t439 * t1641 - (t407 * t1624 - (t368 * tau_2_0 - (q0r2_z * rf0_z -
       (q0r2_x * rf0_x - q0r2_y * rf0_y))))) + Real(922.1400000000001);
-  const Real t1663 = t467 * t1653 - (t461 * t1641 - (t440 * t1625 - (t408 * t1608 - (t369 * tau_2_0 - (q0r1_z
+  const Real t1679 = t470 * t1669 - (t464 * t1657 - (t443 * t1641 - (t411 * t1624 - (t372 * tau_2_0 - (q0r1_z
       * rf0_z + (q0r1_x * rf0_x + q0r1_y * rf0_y))))));
-  const Real t1674 = t490 * (t482 * t1663 - (t479 * t1653 - (t464 * t1641 - (t443 * t1625 - (t411 * t1608 -
-      (t372 * tau_2_0 - (q0r0_z * rf0_z + (q0r0_x * rf0_x - q0r0_y * rf0_y))))))));
-  const Real t1675 = t481 * t1663;
-  const Real t1676 = t466 * t1653;
-  const Real t1677 = t445 * t1641;
-  const Real t1678 = t413 * t1625;
-  const Real t1679 = t374 * t1608;
-  const Real t1680 = model.c29 * tau_2_0;
-  const Real t1681 = Real(3.571428571428571) * rQp3;
-  const Real t1734 = t1214 * (t1239 - t91 * state.z[5]) + (t1215 * (t1225 + t1215 * t1223) - (t95 * t1679 -
-      (t492 * t1678 - (t500 * t1677 - (t507 * t1676 - (t513 * t1675 - (state.z[3] * (t91 * t1220) + t519 *
-      t1674)))))));
-  const Real t1749 = t942 * t1734 + (rear_contacts1bn0_z * t1679 - (t521 * t1678 - (t530 * t1677 - (t536 *
-      t1676 - (t542 * t1675 - (t549 * t1674 + (t1225 * t1425 - (t1236 * t1426 - (t1233 * t1239 + (t1219 *
-      t1241 + (t1214 * (rear_contactc_y * state.z[3]) - (t1215 * (q0r1_y * t1223 * t1316 + (rear_contactc_y *
-      t1245 + t1159 * (q0r1_y * t1245 - (q0r1_x * state.z[3] + q0r1_z * state.z[5])))) - (t1355 * t1381 +
-      t1220 * (rear_contactc_y * state.z[5]))))))))))))));
-  const Real t1769 = t997 * t1749 - (t953 * t1734 + (rear_contacts2bn0_z * t1679 + (t551 * t1678 - (t560 *
-      t1677 - (t566 * t1676 - (t573 * t1675 - (t579 * t1674 - (t1218 * t1241 + (t1355 * t1425 - (t1239 * t1426
-      + (t1233 * t1236 + (t1214 * (rear_contactc_x * state.z[3]) - (t1215 * (q0r0_y * t1223 * t1316 +
-      (rear_contactc_x * t1245 + t1159 * (q0r0_y * t1245 + (q0r0_z * state.z[5] + q0r0_x * state.z[3])))) -
-      (t1225 * t1381 + t1220 * (rear_contactc_x * state.z[5])))))))))))))));
-  const Real t1779 = Real(0.9510565162951535) * t1311 - Real(0.3090169943749474) * t1387;
-  const Real t1799 = state.z[4] * (t73 * t1214) + (state.z[3] * (t73 * t1215 - t1387) + (state.z[7] * (t1779 -
-      (state.z[7] * (front_contactbd0p_z * t68 - model.r_front_y * t65) - (Real(2.0) * ((front_contactbx3_y -
-      s2 * t68) * t1215) + t1779))) + (t1043 * t1769 - (t1009 * t1749 - (t963 * t1734 - (t79 * t1680 - (t582 *
-      t1679 - (t591 * t1678 - (t600 * t1677 - (t608 * t1676 - (t615 * t1675 - (t622 * t1674 -
-      (model.front_radius * (t1410 * (t1192 * t1410)) + (state.z[5] * t1311 + (t1220 * (t76 * state.z[4]) +
-      t1215 * (t76 * state.z[5]))))))))))))))));
-  const Real t1824 = t1082 * t1799 - (t1056 * t1769 - (t1019 * t1749 - (t973 * t1734 - (front_contacts1bn3p_x
-      * t1681 + (front_contacts1bm_z * t1680 - (t630 * t1679 - (t641 * t1678 - (t652 * t1677 - (t659 * t1676 -
-      (t666 * t1675 - (t674 * t1674 + (t1218 * t1287 + (t1285 * t1425 + (t1380 * t1426 + (t1233 * t1283 -
-      (t1410 * (t132 * t1192 * t1338 + t1190 * (q0r1_z * t1296 - (q0r1_x * t1291 + q0r1_y * t1293))) +
-      (state.z[7] * (t1338 * (t68 * t1253) + (state.z[8] * (s2 * front_contacts1bn0_y + c2 *
-      front_contacts1bn2_y) - (state.z[7] * (front_contactbx3_x * q0r0_y - front_contactbx3_y *
-      front_contacts1bf2_y) - (state.z[3] * (front_contactbx3_y * q0r0_z - q0r0_y * t1172) - (state.z[5] *
-      (front_contactbx3_y * q0r0_x + q0r0_y * t1171) - state.z[4] * (q0r0_x * t1172 + q0r0_z * t1171)))))) -
-      (t1219 * t1370 - (t1214 * (front_contactc_y * t1291) + (t1215 * (front_contactc_y * t1293) - (t1368 *
-      t1381 + t1220 * (front_contactc_y * t1296))))))))))))))))))))));
-  const Real t1855 = t1128 * (t1112 * t1824 - (t1097 * t1799 - (t1068 * t1769 - (t1030 * t1749 - (t984 * t1734
-      - (front_contacts2bn3p_x * t1681 + (front_contacts2bm_z * t1680 - (t682 * t1679 - (t693 * t1678 - (t704
-      * t1677 - (t711 * t1676 - (t719 * t1675 - (t726 * t1674 - (t1218 * t1370 + (t1368 * t1425 - (t1283 *
-      t1426 - (t1233 * t1380 - (t1410 * (t170 * t1192 * t1338 - t1190 * (q0r0_x * t1291 - (q0r0_y * t1293 +
-      q0r0_z * t1296))) + (state.z[7] * ((q0r0_z * t1165 - (s2 * q0r0_y + c2 * t137)) * t1372 -
-      (model.r_front_y * (state.z[7] * t1253) - (state.z[5] * (front_contactbx3_y * q0r1_x - q0r1_y * t1171) -
-      (state.z[4] * (q0r1_x * t1172 + q0r1_z * t1171) + (state.z[8] * (s2 * front_contacts2bn0_y - c2 *
-      front_contacts2bn2_y) + state.z[3] * (front_contactbx3_y * q0r1_z + q0r1_y * t1172)))))) + (t1219 *
-      t1287 + (t1214 * (front_contactc_x * t1291) + (t1215 * (front_contactc_x * t1293) + (t1285 * t1381 -
-      t1220 * (front_contactc_x * t1296))))))))))))))))))))))));
-  const Real t1857 = t1111 * t1824 - t1112 * t1855;
-  const Real t1861 = t1097 * t1855 - (t1081 * t1799 - t1082 * t1857);
-  const Real t1867 = t1068 * t1855 + (t1056 * t1857 - (t1042 * t1769 + t1043 * t1861));
-  const Real t1875 = t1030 * t1855 + (t1019 * t1857 - (t1009 * t1861 + (t996 * t1749 + t997 * t1867)));
-  const Real t1885 = t984 * t1855 + (t973 * t1857 - (t963 * t1861 + (t953 * t1867 + (t941 * t1734 + t942 *
-      t1875))));
-  const Real t1886 = Real(1.8087085566416913e-12) * t1885;
-  const Real t1893 = Real(7.806783314072456e-11) * t1875 - t942 * t1886;
-  const Real t1900 = t997 * t1893 - (Real(8.816994788327498e-12) * t1867 - t953 * t1886);
-  const Real t1907 = t1043 * t1900 - (t1009 * t1893 - (Real(3.988016169236579e-12) * t1861 - t963 * t1886));
-  const Real t1914 = t1082 * t1907 - (t1056 * t1900 - (t1019 * t1893 + (Real(4.6476630875276904e-11) * t1857 +
-      t973 * t1886)));
-  const Real t1927 = t1128 * (t1112 * t1914 - (t1097 * t1907 - (t1068 * t1900 - (t1030 * t1893 +
-      (Real(2.7054786900152528e-11) * t1855 + t984 * t1886)))));
-  const Real t1929 = t1111 * t1914 - t1112 * t1927;
-  const Real t1933 = t1097 * t1927 - (t1081 * t1907 - t1082 * t1929);
-  const Real t1939 = t1068 * t1927 + (t1056 * t1929 - (t1042 * t1900 + t1043 * t1933));
-  const Real t1947 = t1030 * t1927 + (t1019 * t1929 - (t1009 * t1933 + (t996 * t1893 + t997 * t1939)));
-  lambda[0] = -(t984 * t1927 + (t973 * t1929 - (t963 * t1933 + (t953 * t1939 + (t942 * t1947 - (t1885 + t941 *
-      t1886))))));
-  lambda[1] = t1875 + t1947;
-  lambda[2] = t1867 + t1939;
-  lambda[3] = t1861 + t1933;
-  lambda[4] = -(t1857 + t1929);
-  lambda[5] = t1855 + t1927;
+  const Real t1690 = t493 * (t485 * t1679 - (t482 * t1669 - (t467 * t1657 - (t446 * t1641 - (t414 * t1624 -
+      (t375 * tau_2_0 - (q0r0_z * rf0_z + (q0r0_x * rf0_x - q0r0_y * rf0_y))))))));
+  const Real t1691 = t484 * t1679;
+  const Real t1692 = t469 * t1669;
+  const Real t1693 = t448 * t1657;
+  const Real t1694 = t416 * t1641;
+  const Real t1695 = t377 * t1624;
+  const Real t1696 = model.c29 * tau_2_0;
+  const Real t1697 = Real(3.571428571428571) * rQp3;
+  const Real t1750 = t1282 * (t1164 - t59 * state.z[5]) + (t1338 * (t1289 + t1338 * (Real(2.0) * t58 +
+      model.rear_radius * (t51 * (t52 * t53 * t1295)))) - (t83 * t1695 - (t495 * t1694 - (t503 * t1693 - (t510
+      * t1692 - (t516 * t1691 + (t59 * state.z[3] * t1411 - t522 * t1690)))))));
+  const Real t1765 = t945 * t1750 + (rear_contacts1bn0_z * t1695 - (t524 * t1694 - (t533 * t1693 - (t539 *
+      t1692 - (t545 * t1691 - (t552 * t1690 + (t1162 * t1385 + (t1319 * t1412 - (t1288 * t1290 +
+      (rear_contactc_y * state.z[5] * t1411 + (t1338 * (t1300 * (q0r1_y * t1165 - (q0r1_x * state.z[3] +
+      q0r1_z * state.z[5])) + (rear_contactc_y * t1165 + t1316 * (rear_contacts1bn0_y + t52 * rear_contactc_y
+      * t1295))) - (state.z[3] * (rear_contactc_y * t1282) + (t1287 * t1289 + t1164 * t1215)))))))))))));
+  const Real t1785 = t1000 * t1765 - (t956 * t1750 + (rear_contacts2bn0_z * t1695 + (t554 * t1694 - (t563 *
+      t1693 - (t569 * t1692 - (t576 * t1691 - (t582 * t1690 + (t1289 * t1412 + (t1164 * t1288 -
+      (rear_contactc_x * state.z[5] * t1411 + (t1338 * (t1300 * (q0r0_x * state.z[3] + (q0r0_z * state.z[5] +
+      q0r0_y * t1165)) + (rear_contactc_x * t1165 + (rear_contacts2bn0_y + t52 * rear_contactc_x * t1295) *
+      t1316)) - (t1282 * (rear_contactc_x * state.z[3]) + (t1215 * t1290 - (t1162 * t1286 + t1287 *
+      t1319))))))))))))));
+  const Real t1815 = state.z[7] * (front_contactbx3_y - s2 * t72) * (t1338 + t1338) + (state.z[4] * (t89 *
+      t1282 - t86 * t1411) + (Real(2.0) * (t1210 * t1435) + (t81 * t1184 * (t1282 + t1282) + (t1046 * t1785 -
+      (t1012 * t1765 - (t966 * t1750 - (t92 * t1696 - (t585 * t1695 - (t594 * t1694 - (t603 * t1693 - (t611 *
+      t1692 - (t618 * t1691 - (t625 * t1690 - (t1417 * (t1417 * (t56 * model.c30 + model.front_radius * (t54 *
+      (t70 * (t55 * t56))))) + (t1338 * (t86 * state.z[5]) + (state.z[3] * (t1435 + t89 * t1338) - (state.z[7]
+      * (state.z[7] * (front_contactbd0p_z * t72 - model.r_front_y * t69)) - t1282 * (t81 *
+      state.z[5]))))))))))))))))));
+  const Real t1841 = t1085 * t1815 - (t1059 * t1785 - (t1022 * t1765 - (t976 * t1750 - (front_contacts1bn3p_x
+      * t1697 + (front_contacts1bm_z * t1696 - (t633 * t1695 - (t644 * t1694 - (t655 * t1693 - (t662 * t1692 -
+      (t669 * t1691 - (t677 * t1690 + (t1277 * t1385 - (t1293 * t1412 + (t1288 * t1325 + (t1266 * (state.z[7]
+      * (q0r1_x * t1199 - (s2 * q0r1_y + q0r1_z * t1200))) - (t1417 * (t1253 * (q0r1_x * t1227 - (q0r1_z *
+      t1230 - q0r1_y * t1228)) + t1262 * (t70 * (t55 * front_contactc_y) + t55 * t132)) - (t1227 *
+      (front_contactc_y * t1282) + (t1411 * (front_contactc_y * t1230) + (t1228 * (front_contactc_y * t1338) +
+      (state.z[7] * (state.z[8] * (s2 * front_contacts1bn0_y + c2 * front_contacts1bn2_y) + (state.z[3] *
+      (front_contactbx3_y * q0r0_z - q0r0_y * t1185) + (state.z[4] * (q0r0_x * t1185) - (t1186 * t1215 +
+      (state.z[7] * (front_contactbx3_x * q0r0_y) + front_contactbx3_y * (q0r0_x * state.z[5] -
+      front_contacts1bf2_y * state.z[7])))))) - (t1215 * t1240 + (t1248 * t1286 + t1245 *
+      t1287))))))))))))))))))))));
+  const Real t1872 = t1131 * (t1115 * t1841 - (t1100 * t1815 - (t1071 * t1785 - (t1033 * t1765 - (t987 * t1750
+      - (front_contacts2bn3p_x * t1697 + (front_contacts2bm_z * t1696 - (t685 * t1695 - (t696 * t1694 - (t707
+      * t1693 - (t714 * t1692 - (t722 * t1691 - (t729 * t1690 + (t1248 * t1385 + (t1245 * t1412 + (t1240 *
+      t1288 - ((t1262 * (t70 * (t55 * front_contactc_x) + t55 * t170) + t1253 * (q0r0_x * t1227 - (q0r0_z *
+      t1230 + q0r0_y * t1228))) * t1417 - (front_contactc_x * t1230 * t1411 + (front_contactc_x * t1228 *
+      t1338 - (state.z[7] * (state.z[3] * (front_contactbx3_y * q0r1_z + q0r1_y * t1185) + (state.z[4] *
+      (q0r1_z * t1186 + q0r1_x * t1185) - (t1266 * (q0r0_x * t1199 + (s2 * q0r0_y - q0r0_z * t1200)) -
+      (state.z[8] * (s2 * front_contacts2bn0_y - c2 * front_contacts2bn2_y) + (state.z[7] *
+      (front_contactbx3_x * q0r1_y + front_contactbx3_y * front_contacts2bf2_y) - state.z[5] *
+      (front_contactbx3_y * q0r1_x - q0r1_y * t1186)))))) - (front_contactc_x * t1227 * t1282 + (t1215 * t1325
+      - (t1277 * t1286 - t1287 * t1293)))))))))))))))))))))));
+  const Real t1874 = t1114 * t1841 - t1115 * t1872;
+  const Real t1878 = t1100 * t1872 - (t1084 * t1815 - t1085 * t1874);
+  const Real t1884 = t1071 * t1872 + (t1059 * t1874 - (t1045 * t1785 + t1046 * t1878));
+  const Real t1892 = t1033 * t1872 + (t1022 * t1874 - (t1012 * t1878 + (t999 * t1765 + t1000 * t1884)));
+  const Real t1902 = t987 * t1872 + (t976 * t1874 - (t966 * t1878 + (t956 * t1884 + (t944 * t1750 + t945 *
+      t1892))));
+  const Real t1903 = Real(1.8087085566416913e-12) * t1902;
+  const Real t1910 = Real(7.806783314072456e-11) * t1892 - t945 * t1903;
+  const Real t1917 = t1000 * t1910 - (Real(8.816994788327498e-12) * t1884 - t956 * t1903);
+  const Real t1924 = t1046 * t1917 - (t1012 * t1910 - (Real(3.988016169236579e-12) * t1878 - t966 * t1903));
+  const Real t1931 = t1085 * t1924 - (t1059 * t1917 - (t1022 * t1910 + (Real(4.6476630875276904e-11) * t1874 +
+      t976 * t1903)));
+  const Real t1944 = t1131 * (t1115 * t1931 - (t1100 * t1924 - (t1071 * t1917 - (t1033 * t1910 +
+      (Real(2.7054786900152528e-11) * t1872 + t987 * t1903)))));
+  const Real t1946 = t1114 * t1931 - t1115 * t1944;
+  const Real t1950 = t1100 * t1944 - (t1084 * t1924 - t1085 * t1946);
+  const Real t1956 = t1071 * t1944 + (t1059 * t1946 - (t1045 * t1917 + t1046 * t1950));
+  const Real t1964 = t1033 * t1944 + (t1022 * t1946 - (t1012 * t1950 + (t999 * t1910 + t1000 * t1956)));
+  lambda[0] = -(t987 * t1944 + (t976 * t1946 - (t966 * t1950 + (t956 * t1956 + (t945 * t1964 - (t1902 + t944 *
+      t1903))))));
+  lambda[1] = t1892 + t1964;
+  lambda[2] = t1884 + t1956;
+  lambda[3] = t1878 + t1950;
+  lambda[4] = -(t1874 + t1946);
+  lambda[5] = t1872 + t1944;
 }
 
 // `input` may be a function that gives the Input at the state of a stage.

@@ -390,10 +390,10 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real t138 = t135 * t137;
   const Real t146 = Real(1.0) / (t135 * t138 + (t118 * t130 - (t93 * t116 + (Real(3.75e-07) + (s4 * t92 - (t66
       * t90 - c3 * t91))))));
-  const Real w1_z = state.z[0] + state.z[1];
+  const Real t151 = state.z[2] * (s2 * state.z[2]);
+  const Real t152 = state.z[2] * (c2 * state.z[2]);
   const Real w3_z = state.z[2] + state.z[3];
-  const Real t154 = state.z[2] * (s2 * state.z[2]);
-  const Real t155 = state.z[2] * (c2 * state.z[2]);
+  const Real w1_z = state.z[0] + state.z[1];
   const Real h2b_x = s2 * Real(1.5);
   const Real h2_x = h3b_x + h2b_x;
   const Real h0b_x = s0 * Real(1.5);
@@ -408,8 +408,8 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real rdf1_x = h1b_x * zw_1;
   const Real rdf1_y = h1b_y * zw_1;
   const Real rQp2 = h2_x * Real(9.81);
-  const Real ra3o_y = t155 - Real(9.81);
-  const Real rQp3 = h3b_x * ra3o_y - h3b_y * t154;
+  const Real ra3o_y = t152 - Real(9.81);
+  const Real rQp3 = h3b_x * ra3o_y - h3b_y * t151;
   const Real zw_3 = state.z[3] * (state.z[2] + w3_z);
   const Real rdf3_x = h3b_x * zw_3;
   const Real rdf3_y = h3b_y * zw_3;
@@ -421,13 +421,13 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real t208 = t49 * t201;
   const Real t209 = Real(3.0) * rQp3;
   const Real t210 = Real(3.0) * rQp4;
-  const Real t227 = c2 * t208 + (s1 * t207 - (t57 * t206 + (w1_z * (c1 * w1_z) - (t154 - ra1o_x))));
-  const Real t234 = t106 * t227 - (s2 * t208 + (c1 * t207 - (t60 * t206 - (w1_z * (s1 * w1_z) - (t155 -
+  const Real t227 = c2 * t208 + (s1 * t207 - (t57 * t206 + (w1_z * (c1 * w1_z) - (t151 - ra1o_x))));
+  const Real t234 = t106 * t227 - (s2 * t208 + (c1 * t207 - (t60 * t206 - (w1_z * (s1 * w1_z) - (t152 -
       t174)))));
   const Real t244 = t122 * t234 + (t112 * t227 + (c4 * t210 + (s3 * t209 - (t63 * t208 - (w3_z * (c3 * w3_z) +
-      (t154 - state.z[4] * (s4 * state.z[4])))))));
+      (t151 - state.z[4] * (s4 * state.z[4])))))));
   const Real t258 = t146 * (t138 * t244 + (t130 * t234 + (t116 * t227 + (s4 * t210 + (c3 * t209 - (t66 * t208
-      + (w3_z * (s3 * w3_z) + (t155 - state.z[4] * (c4 * state.z[4])))))))));
+      + (w3_z * (s3 * w3_z) + (t152 - state.z[4] * (c4 * state.z[4])))))))));
   const Real t260 = t137 * t244 - t138 * t258;
   const Real t264 = t130 * t258 - (t121 * t234 + t122 * t260);
   const Real t270 = t116 * t258 - (t112 * t260 - (t105 * t227 + t106 * t264));
@@ -788,10 +788,10 @@ void constraint_forces(const Model<Real>&, const State<Real>& state, const Input
   const Real t138 = t135 * t137;
   const Real t146 = Real(1.0) / (t135 * t138 + (t118 * t130 - (t93 * t116 + (Real(3.75e-07) + (s4 * t92 - (t66
       * t90 - c3 * t91))))));
-  const Real w1_z = state.z[0] + state.z[1];
+  const Real t151 = state.z[2] * (s2 * state.z[2]);
+  const Real t152 = state.z[2] * (c2 * state.z[2]);
   const Real w3_z = state.z[2] + state.z[3];
-  const Real t154 = state.z[2] * (s2 * state.z[2]);
-  const Real t155 = state.z[2] * (c2 * state.z[2]);
+  const Real w1_z = state.z[0] + state.z[1];
   const Real h2b_x = s2 * Real(1.5);
   const Real h2_x = h3b_x + h2b_x;
   const Real h0b_x = s0 * Real(1.5);
@@ -806,8 +806,8 @@ void constraint_forces(const Model<Real>&, const State<Real>& state, const Input
   const Real rdf1_x = h1b_x * zw_1;
   const Real rdf1_y = h1b_y * zw_1;
   const Real rQp2 = h2_x * Real(9.81);
-  const Real ra3o_y = t155 - Real(9.81);
-  const Real rQp3 = h3b_x * ra3o_y - h3b_y * t154;
+  const Real ra3o_y = t152 - Real(9.81);
+  const Real rQp3 = h3b_x * ra3o_y - h3b_y * t151;
   const Real zw_3 = state.z[3] * (state.z[2] + w3_z);
   const Real rdf3_x = h3b_x * zw_3;
   const Real rdf3_y = h3b_y * zw_3;
@@ -816,13 +816,13 @@ void constraint_forces(const Model<Real>&, const State<Real>& state, const Input
   const Real t206 = t49 * (t43 * rQp3 - (s2 * rdf3_y - (rQp2 + c2 * rdf3_x)));
   const Real t207 = Real(3.0) * rQp3;
   const Real t209 = s4 * Real(14.715000000000002);
-  const Real t226 = c2 * t206 + (s1 * t205 - (t57 * t204 + (w1_z * (c1 * w1_z) - (t154 - ra1o_x))));
-  const Real t233 = t106 * t226 - (s2 * t206 + (c1 * t205 - (t60 * t204 - (w1_z * (s1 * w1_z) - (t155 -
+  const Real t226 = c2 * t206 + (s1 * t205 - (t57 * t204 + (w1_z * (c1 * w1_z) - (t151 - ra1o_x))));
+  const Real t233 = t106 * t226 - (s2 * t206 + (c1 * t205 - (t60 * t204 - (w1_z * (s1 * w1_z) - (t152 -
       t174)))));
   const Real t243 = t122 * t233 + (t112 * t226 + (c4 * t209 + (s3 * t207 - (t63 * t206 - (w3_z * (c3 * w3_z) +
-      (t154 - state.z[4] * (s4 * state.z[4])))))));
+      (t151 - state.z[4] * (s4 * state.z[4])))))));
   const Real t257 = t146 * (t138 * t243 + (t130 * t233 + (t116 * t226 + (s4 * t209 + (c3 * t207 - (t66 * t206
-      + (w3_z * (s3 * w3_z) + (t155 - state.z[4] * (c4 * state.z[4])))))))));
+      + (w3_z * (s3 * w3_z) + (t152 - state.z[4] * (c4 * state.z[4])))))))));
   const Real t259 = t137 * t243 - t138 * t257;
   const Real t263 = t130 * t257 - (t121 * t233 + t122 * t259);
   const Real t269 = t116 * t257 - (t112 * t259 - (t105 * t226 + t106 * t263));

@@ -304,20 +304,24 @@ void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[7]
   const Real r2_x = c1 * Real(0.19485571585149872) + s1 * Real(0.11249999999999999);
   const Real s4 = c3 * t33 + s3 * t34;
   const Real c4 = s3 * t33 - c3 * t34;
+  const Real r4_x = c3 * Real(0.19485571585149872) + s3 * Real(0.11249999999999999);
   const Real pin2ax_x = c2 * Real(0.13856406460551018) + s2 * Real(1.0546217409559561e-17);
   const Real pin2ax2_x = r2_x + pin2ax_x;
   const Real pin2ax1_x = r1_x - pin2ax2_x;
   const Real pin2bx_x = c4 * Real(0.19485571585149872) - s4 * Real(0.11249999999999999);
+  const Real pin2bx4_x = r4_x - pin2bx_x;
   const Real r1_y = s0 * Real(0.19485571585149872) + c0 * Real(0.11249999999999999);
   const Real r2_y = s1 * Real(0.19485571585149872) - c1 * Real(0.11249999999999999);
+  const Real r4_y = s3 * Real(0.19485571585149872) - c3 * Real(0.11249999999999999);
   const Real pin2ax_y = s2 * Real(0.13856406460551018) - c2 * Real(1.0546217409559561e-17);
   const Real pin2ax2_y = r2_y - pin2ax_y;
   const Real pin2ax1_y = r1_y + pin2ax2_y;
   const Real pin2bx_y = s4 * Real(0.19485571585149872) + c4 * Real(0.11249999999999999);
-  Real t75, t76;
-  detail::sine_cosine(state.y[6], t75, t76);
-  const Real s6 = c5 * t75 + s5 * t76;
-  const Real c6 = s5 * t75 - c5 * t76;
+  const Real pin2bx4_y = r4_y + pin2bx_y;
+  Real t79, t80;
+  detail::sine_cosine(state.y[6], t79, t80);
+  const Real s6 = c5 * t79 + s5 * t80;
+  const Real c6 = s5 * t79 - c5 * t80;
   const Real r6_x = s5 * Real(0.225);
   const Real pin3ax_x = c2 * Real(0.06928203230275509) - s2 * Real(0.12);
   const Real pin3ax2_x = r2_x + pin3ax_x;
@@ -330,8 +334,6 @@ void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[7]
   const Real pin3ax1_y = r1_y + pin3ax2_y;
   const Real pin3bx_y = c6 * Real(0.225);
   const Real pin3bx6_y = r6_y - pin3bx_y;
-  const Real t104 = c3 * Real(0.11249999999999999) - (s3 * Real(0.19485571585149872) + pin2bx_y);
-  const Real t105 = c3 * Real(0.19485571585149872) + (s3 * Real(0.11249999999999999) - pin2bx_x);
   const Real t114 = Real(1.0) / (pin2ax2_y * pin2ax2_y + pin2ax2_x * pin2ax2_x + pin3ax2_y * pin3ax2_y +
       pin3ax2_x * pin3ax2_x);
   const Real t118 = t114 * Real(0.031425) - Real(0.5);
@@ -383,18 +385,18 @@ void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[7]
       t258) - t210 * (t250 - t160 * t258));
   const Real t280 = t258 - t202 * t274;
   const Real t284 = t242 - t186 * t274 - t152 * t280;
-  const Real t295 = t114 * (pin2ax2_y * t104 + pin2ax2_x * t105);
-  const Real t297 = t104 - pin2ax2_y * t295;
-  const Real t299 = t105 - pin2ax2_x * t295;
+  const Real t295 = t114 * (pin2ax2_y * pin2bx4_y - pin2ax2_x * pin2bx4_x);
+  const Real t297 = pin2bx4_y - pin2ax2_y * t295;
+  const Real t299 = pin2bx4_x + pin2ax2_x * t295;
   const Real t300 = pin3ax2_y * t295;
   const Real t301 = pin3ax2_x * t295;
-  const Real t309 = t134 * (t120 * t297 - t122 * t299 - t124 * t300 + t126 * t301);
+  const Real t309 = t134 * (t120 * t297 + t122 * t299 - t124 * t300 + t126 * t301);
   const Real t311 = t297 - t120 * t309;
-  const Real t313 = t299 + t122 * t309;
+  const Real t313 = t299 - t122 * t309;
   const Real t315 = t300 + t124 * t309;
   const Real t317 = t301 - t126 * t309;
-  const Real t325 = t168 * (t154 * t311 + t156 * t313 + t158 * t315 + t160 * t317);
-  const Real t341 = t218 * (t204 * (t311 - t154 * t325) + t206 * (t313 - t156 * t325) + t208 * (t315 - t158 *
+  const Real t325 = t168 * (t154 * t311 - t156 * t313 + t158 * t315 + t160 * t317);
+  const Real t341 = t218 * (t204 * (t311 - t154 * t325) - t206 * (t313 + t156 * t325) + t208 * (t315 - t158 *
       t325) - t210 * (t317 - t160 * t325));
   const Real t347 = t325 - t202 * t341;
   const Real t351 = t309 - t186 * t341 - t152 * t347;
@@ -414,13 +416,13 @@ void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[7]
   const Real t418 = t396 - t202 * t412;
   const Real t422 = t380 - t186 * t412 - t152 * t418;
   ydot[0] = state.z[0];
-  ydot[1] = -((t226 + t172 * t274 - t138 * t280 - t118 * t284) * state.z[0] - (t295 + t172 * t341 - t138 *
+  ydot[1] = -((t226 + t172 * t274 - t138 * t280 - t118 * t284) * state.z[0] + (t295 + t172 * t341 - t138 *
       t347 - t118 * t351) * state.z[1] + (t366 - t172 * t412 + t138 * t418 + t118 * t422) * state.z[2]);
-  ydot[2] = t284 * state.z[0] - t351 * state.z[1] - t422 * state.z[2];
+  ydot[2] = t284 * state.z[0] + t351 * state.z[1] - t422 * state.z[2];
   ydot[3] = state.z[1];
-  ydot[4] = -(t280 * state.z[0] - t347 * state.z[1] - t418 * state.z[2]);
+  ydot[4] = -(t280 * state.z[0] + t347 * state.z[1] - t418 * state.z[2]);
   ydot[5] = state.z[2];
-  ydot[6] = -(t274 * state.z[0] - t341 * state.z[1] - t412 * state.z[2]);
+  ydot[6] = -(t274 * state.z[0] + t341 * state.z[1] - t412 * state.z[2]);
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -442,6 +444,7 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[3
   const Real pin2ax2_x = r2_x + pin2ax_x;
   const Real pin2ax1_x = r1_x - pin2ax2_x;
   const Real pin2bx_x = c4 * Real(0.19485571585149872) - s4 * Real(0.11249999999999999);
+  const Real pin2bx4_x = r4_x - pin2bx_x;
   const Real r1_y = s0 * Real(0.19485571585149872) + c0 * Real(0.11249999999999999);
   const Real r2_y = s1 * Real(0.19485571585149872) - c1 * Real(0.11249999999999999);
   const Real r4_y = s3 * Real(0.19485571585149872) - c3 * Real(0.11249999999999999);
@@ -449,10 +452,11 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[3
   const Real pin2ax2_y = r2_y - pin2ax_y;
   const Real pin2ax1_y = r1_y + pin2ax2_y;
   const Real pin2bx_y = s4 * Real(0.19485571585149872) + c4 * Real(0.11249999999999999);
-  Real t77, t78;
-  detail::sine_cosine(state.y[6], t77, t78);
-  const Real s6 = c5 * t77 + s5 * t78;
-  const Real c6 = s5 * t77 - c5 * t78;
+  const Real pin2bx4_y = r4_y + pin2bx_y;
+  Real t79, t80;
+  detail::sine_cosine(state.y[6], t79, t80);
+  const Real s6 = c5 * t79 + s5 * t80;
+  const Real c6 = s5 * t79 - c5 * t80;
   const Real r6_x = s5 * Real(0.225);
   const Real pin3ax_x = c2 * Real(0.06928203230275509) - s2 * Real(0.12);
   const Real pin3ax2_x = r2_x + pin3ax_x;
@@ -465,8 +469,6 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[3
   const Real pin3ax1_y = r1_y + pin3ax2_y;
   const Real pin3bx_y = c6 * Real(0.225);
   const Real pin3bx6_y = r6_y - pin3bx_y;
-  const Real t104 = r4_y + pin2bx_y;
-  const Real t105 = r4_x - pin2bx_x;
   const Real t114 = Real(1.0) / (pin3ax2_x * pin3ax2_x + (pin3ax2_y * pin3ax2_y + (pin2ax2_y * pin2ax2_y +
       pin2ax2_x * pin2ax2_x)));
   const Real t118 = t114 * Real(0.031425) - Real(0.5);
@@ -519,9 +521,9 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[3
   const Real t278 = t258 - t202 * t274;
   const Real t282 = t152 * t278 - (t242 - t186 * t274);
   const Real t286 = t118 * t282 - (t138 * t278 + (t226 + t172 * t274));
-  const Real t290 = t114 * (pin2ax2_y * t104 - pin2ax2_x * t105);
-  const Real t292 = t104 - pin2ax2_y * t290;
-  const Real t294 = t105 + pin2ax2_x * t290;
+  const Real t290 = t114 * (pin2ax2_y * pin2bx4_y - pin2ax2_x * pin2bx4_x);
+  const Real t292 = pin2bx4_y - pin2ax2_y * t290;
+  const Real t294 = pin2bx4_x + pin2ax2_x * t290;
   const Real t295 = pin3ax2_y * t290;
   const Real t296 = pin3ax2_x * t290;
   const Real t304 = t134 * (t126 * t296 - (t124 * t295 - (t120 * t292 + t122 * t294)));
@@ -551,7 +553,7 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[3
   const Real t402 = t382 - t202 * t398;
   const Real t406 = t152 * t402 - (t366 - t186 * t398);
   const Real t410 = t118 * t406 - (t138 * t402 + (t352 + t172 * t398));
-  const Real D6 = t78 * Real(0.00759375);
+  const Real D6 = t80 * Real(0.00759375);
   const Real E6 = D6 + Real(0.0050625);
   const Real h4b_x = s4 * Real(0.016874999999999998) - c4 * Real(0.029228357377724806);
   const Real h4b_y = c4 * Real(0.016874999999999998) + s4 * Real(0.029228357377724806);
@@ -604,6 +606,7 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[3]) noe
   const Real pin2ax2_x = r2_x + pin2ax_x;
   const Real pin2ax1_x = r1_x - pin2ax2_x;
   const Real pin2bx_x = c4 * Real(0.19485571585149872) - s4 * Real(0.11249999999999999);
+  const Real pin2bx4_x = r4_x - pin2bx_x;
   const Real r1_y = s0 * Real(0.19485571585149872) + c0 * Real(0.11249999999999999);
   const Real r2_y = s1 * Real(0.19485571585149872) - c1 * Real(0.11249999999999999);
   const Real r4_y = s3 * Real(0.19485571585149872) - c3 * Real(0.11249999999999999);
@@ -611,10 +614,11 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[3]) noe
   const Real pin2ax2_y = r2_y - pin2ax_y;
   const Real pin2ax1_y = r1_y + pin2ax2_y;
   const Real pin2bx_y = s4 * Real(0.19485571585149872) + c4 * Real(0.11249999999999999);
-  Real t77, t78;
-  detail::sine_cosine(state.y[6], t77, t78);
-  const Real s6 = c5 * t77 + s5 * t78;
-  const Real c6 = s5 * t77 - c5 * t78;
+  const Real pin2bx4_y = r4_y + pin2bx_y;
+  Real t79, t80;
+  detail::sine_cosine(state.y[6], t79, t80);
+  const Real s6 = c5 * t79 + s5 * t80;
+  const Real c6 = s5 * t79 - c5 * t80;
   const Real r6_x = s5 * Real(0.225);
   const Real pin3ax_x = c2 * Real(0.06928203230275509) - s2 * Real(0.12);
   const Real pin3ax2_x = r2_x + pin3ax_x;
@@ -627,8 +631,6 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[3]) noe
   const Real pin3ax1_y = r1_y + pin3ax2_y;
   const Real pin3bx_y = c6 * Real(0.225);
   const Real pin3bx6_y = r6_y - pin3bx_y;
-  const Real t104 = r4_y + pin2bx_y;
-  const Real t105 = r4_x - pin2bx_x;
   const Real t114 = Real(1.0) / (pin2ax2_x * pin2ax2_x + (pin2ax2_y * pin2ax2_y + (pin3ax2_y * pin3ax2_y +
       pin3ax2_x * pin3ax2_x)));
   const Real t118 = t114 * Real(0.031425) - Real(0.5);
@@ -681,9 +683,9 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[3]) noe
   const Real t278 = t258 - t202 * t274;
   const Real t282 = t186 * t274 - (t242 - t152 * t278);
   const Real t286 = t172 * t274 + (t226 - (t138 * t278 + t118 * t282));
-  const Real t295 = t114 * (pin2ax2_y * t104 - pin2ax2_x * t105);
-  const Real t297 = t104 - pin2ax2_y * t295;
-  const Real t299 = t105 + pin2ax2_x * t295;
+  const Real t295 = t114 * (pin2ax2_y * pin2bx4_y - pin2ax2_x * pin2bx4_x);
+  const Real t297 = pin2bx4_y - pin2ax2_y * t295;
+  const Real t299 = pin2bx4_x + pin2ax2_x * t295;
   const Real t300 = pin3ax2_y * t295;
   const Real t301 = pin3ax2_x * t295;
   const Real t309 = t134 * (t122 * t299 + (t120 * t297 - (t124 * t300 - t126 * t301)));
@@ -718,36 +720,36 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[3]) noe
   const Real t430 = t345 * state.z[1] + (t278 * state.z[0] + t412 * state.z[2]);
   const Real t433 = t341 * state.z[1] + (t274 * state.z[0] + t408 * state.z[2]);
   const Real w1_z = state.z[0] + t424;
-  const Real w2_z = t427 - w1_z;
-  const Real w4_z = state.z[1] + t430;
-  const Real t445 = Real(0.225) * state.z[2];
+  const Real t438 = state.z[0] * (r1_y * state.z[0]);
+  const Real t441 = Real(0.225) * state.z[2];
+  const Real t444 = t441 * (c5 * state.z[2]);
   const Real w6_z = state.z[2] + t433;
-  const Real ka1o_x = state.z[0] * (r1_x * state.z[0]);
-  const Real t451 = w1_z * (r2_x * w1_z) - ka1o_x;
-  const Real t453 = state.z[1] * (r4_x * state.z[1]);
-  const Real t454 = Real(0.225) * w6_z;
-  const Real ka1o_y = state.z[0] * (r1_y * state.z[0]);
-  const Real t457 = w1_z * (r2_y * w1_z) + ka1o_y;
-  const Real t458 = state.z[1] * (r4_y * state.z[1]);
-  const Real t462 = state.z[2] * (c5 * t445);
-  const Real t463 = t445 * (s5 * state.z[2]);
-  const Real t470 = w2_z * (pin2ax_x * w2_z) + (t451 - (t453 - w4_z * (pin2bx_x * w4_z)));
-  const Real t474 = t458 + (t457 - (w2_z * (pin2ax_y * w2_z) - w4_z * (pin2bx_y * w4_z)));
-  const Real t481 = t462 + (t457 - (w2_z * (pin3ax_y * w2_z) + t454 * (c6 * w6_z)));
-  const Real t485 = t463 + (t451 + (w6_z * (s6 * t454) + w2_z * (pin3ax_x * w2_z)));
-  const Real t493 = t114 * (pin2ax2_x * t474 - (pin2ax2_y * t470 + (pin3ax2_y * t485 - pin3ax2_x * t481)));
-  const Real t495 = t470 + pin2ax2_y * t493;
-  const Real t497 = t474 - pin2ax2_x * t493;
-  const Real t499 = t485 + pin3ax2_y * t493;
-  const Real t501 = t481 - pin3ax2_x * t493;
-  const Real t509 = t134 * (t122 * t497 + (t120 * t495 + (t124 * t499 + t126 * t501)));
+  const Real t446 = Real(0.225) * w6_z;
+  const Real t450 = t441 * (s5 * state.z[2]);
+  const Real w2_z = t427 - w1_z;
+  const Real t452 = state.z[0] * (r1_x * state.z[0]);
+  const Real t454 = t452 - w1_z * (r2_x * w1_z);
+  const Real t462 = t454 - (t450 + (t446 * (s6 * w6_z) + w2_z * (pin3ax_x * w2_z)));
+  const Real t467 = t438 + w1_z * (r2_y * w1_z);
+  const Real t470 = t467 + (t444 - (t446 * (c6 * w6_z) + w2_z * (pin3ax_y * w2_z)));
+  const Real t472 = state.z[1] * (r4_x * state.z[1]);
+  const Real w4_z = state.z[1] + t430;
+  const Real t476 = state.z[1] * (r4_y * state.z[1]);
+  const Real t481 = w2_z * (pin2ax_x * w2_z) - (t454 + (t472 - w4_z * (pin2bx_x * w4_z)));
+  const Real t485 = t467 - (w2_z * (pin2ax_y * w2_z) - (t476 + w4_z * (pin2bx_y * w4_z)));
+  const Real t493 = t114 * (pin2ax2_x * t485 - (pin2ax2_y * t481 - (pin3ax2_y * t462 + pin3ax2_x * t470)));
+  const Real t495 = t481 + pin2ax2_y * t493;
+  const Real t497 = t485 - pin2ax2_x * t493;
+  const Real t499 = t462 - pin3ax2_y * t493;
+  const Real t501 = t470 - pin3ax2_x * t493;
+  const Real t509 = t134 * (t122 * t497 + (t120 * t495 - (t124 * t499 - t126 * t501)));
   const Real t511 = t495 - t120 * t509;
   const Real t513 = t497 - t122 * t509;
-  const Real t515 = t499 - t124 * t509;
+  const Real t515 = t499 + t124 * t509;
   const Real t517 = t501 - t126 * t509;
-  const Real t525 = t168 * (t156 * t513 - (t154 * t511 - (t158 * t515 - t160 * t517)));
-  const Real t541 = t218 * (t206 * (t513 - t156 * t525) - (t204 * (t511 + t154 * t525) - (t208 * (t515 - t158
-      * t525) + t210 * (t517 + t160 * t525))));
+  const Real t525 = t168 * (t156 * t513 - (t154 * t511 + (t158 * t515 + t160 * t517)));
+  const Real t541 = t218 * (t206 * (t513 - t156 * t525) - (t204 * (t511 + t154 * t525) + (t208 * (t515 + t158
+      * t525) - t210 * (t517 + t160 * t525))));
   const Real t545 = t525 - t202 * t541;
   const Real t549 = t186 * t541 - (t509 - t152 * t545);
   const Real t553 = t172 * t541 + (t493 - (t138 * t545 + t118 * t549));
@@ -774,22 +776,22 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[3]) noe
   const Real kf2c_x = kdf1_x - kdf2_x;
   const Real kf2c_y = kdf1_y + kdf2_y;
   const Real kn2c_z = r2_x * kdf2_y + r2_y * kdf2_x;
-  const Real E6 = t78 * Real(0.00759375) + Real(0.0050625);
+  const Real E6 = t80 * Real(0.00759375) + Real(0.0050625);
   const Real E4 = r4_x * h4b_x + (Real(0.0050625) + r4_y * h4b_y);
   const Real D2 = r2_x * h2b_x - r2_y * h2b_y;
   const Real E2 = D2 + model.S2b_zz;
   const Real J1 = E2 + (D2 + model.c5);
   const Real E1 = r1_x * h1_x - (J1 + r1_y * h1_y);
   const Real p_2_1n_z = r1_x * h2b_x - (E2 - r1_y * h2b_y);
-  const Real t655 = ka1o_x * h1_y + (ka1o_y * h1_x + (kn2c_z - (t553 * J1 - t549 * E2)));
-  const Real t658 = t451 * h2b_y + (t457 * h2b_x - (t553 * E2 - t549 * model.S2b_zz));
-  const Real t660 = t453 * h4b_y - (t458 * h4b_x + t545 * Real(0.0050625));
-  const Real t662 = t463 * h6b_y + (t462 * h6b_x - t541 * Real(0.0050625));
-  k[0] = r1_x * kf2c_y - (kn2c_z - (r1_y * kf2c_x - (t553 * E1 - (t549 * p_2_1n_z - (t286 * t655 - (t282 *
-      t658 - (t278 * t660 + t274 * t662)))))));
-  k[1] = -(r4_y * kdf4_x - (r4_x * kdf4_y + (t545 * E4 - (t353 * t655 - (t349 * t658 - (t345 * t660 + t341 *
+  const Real t655 = t452 * h1_y + (t438 * h1_x + (kn2c_z - (t553 * J1 - t549 * E2)));
+  const Real t658 = t454 * h2b_y - (t467 * h2b_x - (t553 * E2 - t549 * model.S2b_zz));
+  const Real t660 = t472 * h4b_y - (t476 * h4b_x + t545 * Real(0.0050625));
+  const Real t662 = t450 * h6b_y + (t444 * h6b_x - t541 * Real(0.0050625));
+  k[0] = r1_x * kf2c_y - (kn2c_z - (r1_y * kf2c_x - (t553 * E1 - (t549 * p_2_1n_z - (t286 * t655 + (t282 *
+      t658 + (t278 * t660 + t274 * t662)))))));
+  k[1] = -(r4_y * kdf4_x - (r4_x * kdf4_y + (t545 * E4 - (t353 * t655 + (t349 * t658 + (t345 * t660 + t341 *
       t662))))));
-  k[2] = r6_y * kdf6_x + (r6_x * kdf6_y + (t541 * E6 - (t420 * t655 - (t416 * t658 - (t412 * t660 + t408 *
+  k[2] = r6_y * kdf6_x + (r6_x * kdf6_y + (t541 * E6 - (t420 * t655 + (t416 * t658 + (t412 * t660 + t408 *
       t662)))));
 }
 
@@ -823,6 +825,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real pin2ax2_x = r2_x + pin2ax_x;
   const Real pin2ax1_x = r1_x - pin2ax2_x;
   const Real pin2bx_x = c4 * Real(0.19485571585149872) - s4 * Real(0.11249999999999999);
+  const Real pin2bx4_x = r4_x - pin2bx_x;
   const Real r1_y = s0 * Real(0.19485571585149872) + c0 * Real(0.11249999999999999);
   const Real r2_y = s1 * Real(0.19485571585149872) - c1 * Real(0.11249999999999999);
   const Real r4_y = s3 * Real(0.19485571585149872) - c3 * Real(0.11249999999999999);
@@ -830,10 +833,11 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real pin2ax2_y = r2_y - pin2ax_y;
   const Real pin2ax1_y = r1_y + pin2ax2_y;
   const Real pin2bx_y = s4 * Real(0.19485571585149872) + c4 * Real(0.11249999999999999);
-  Real t77, t78;
-  detail::sine_cosine(state.y[6], t77, t78);
-  const Real s6 = c5 * t77 + s5 * t78;
-  const Real c6 = s5 * t77 - c5 * t78;
+  const Real pin2bx4_y = r4_y + pin2bx_y;
+  Real t79, t80;
+  detail::sine_cosine(state.y[6], t79, t80);
+  const Real s6 = c5 * t79 + s5 * t80;
+  const Real c6 = s5 * t79 - c5 * t80;
   const Real r6_x = s5 * Real(0.225);
   const Real pin3ax_x = c2 * Real(0.06928203230275509) - s2 * Real(0.12);
   const Real pin3ax2_x = r2_x + pin3ax_x;
@@ -846,8 +850,6 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real pin3ax1_y = r1_y + pin3ax2_y;
   const Real pin3bx_y = c6 * Real(0.225);
   const Real pin3bx6_y = r6_y - pin3bx_y;
-  const Real t104 = r4_y + pin2bx_y;
-  const Real t105 = r4_x - pin2bx_x;
   const Real t114 = Real(1.0) / (pin3ax2_x * pin3ax2_x + (pin3ax2_y * pin3ax2_y + (pin2ax2_y * pin2ax2_y +
       pin2ax2_x * pin2ax2_x)));
   const Real t118 = t114 * Real(0.031425) - Real(0.5);
@@ -900,9 +902,9 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t278 = t258 - t202 * t274;
   const Real t282 = t152 * t278 - (t242 - t186 * t274);
   const Real t286 = t118 * t282 - (t138 * t278 + (t226 + t172 * t274));
-  const Real t295 = t114 * (pin2ax2_y * t104 - pin2ax2_x * t105);
-  const Real t297 = t104 - pin2ax2_y * t295;
-  const Real t299 = t105 + pin2ax2_x * t295;
+  const Real t295 = t114 * (pin2ax2_y * pin2bx4_y - pin2ax2_x * pin2bx4_x);
+  const Real t297 = pin2bx4_y - pin2ax2_y * t295;
+  const Real t299 = pin2bx4_x + pin2ax2_x * t295;
   const Real t300 = pin3ax2_y * t295;
   const Real t301 = pin3ax2_x * t295;
   const Real t309 = t134 * (t126 * t301 - (t124 * t300 - (t120 * t297 + t122 * t299)));
@@ -937,28 +939,28 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t430 = t412 * state.z[2] - (t278 * state.z[0] + t345 * state.z[1]);
   const Real t433 = t408 * state.z[2] - (t274 * state.z[0] + t341 * state.z[1]);
   const Real w1_z = state.z[0] + t424;
-  const Real w2_z = t427 + w1_z;
-  const Real w4_z = state.z[1] + t430;
-  const Real t445 = Real(0.225) * state.z[2];
+  const Real t438 = state.z[0] * (r1_y * state.z[0]);
+  const Real t441 = Real(0.225) * state.z[2];
+  const Real t444 = t441 * (c5 * state.z[2]);
   const Real w6_z = state.z[2] - t433;
-  const Real t450 = state.z[0] * (r1_x * state.z[0]);
-  const Real t451 = w1_z * (r2_x * w1_z) - t450;
-  const Real t453 = state.z[1] * (r4_x * state.z[1]);
-  const Real t454 = Real(0.225) * w6_z;
-  const Real t456 = state.z[0] * (r1_y * state.z[0]);
-  const Real t457 = w1_z * (r2_y * w1_z) + t456;
-  const Real t458 = state.z[1] * (r4_y * state.z[1]);
-  const Real t462 = state.z[2] * (c5 * t445);
-  const Real t463 = t445 * (s5 * state.z[2]);
-  const Real t470 = w4_z * (pin2bx_x * w4_z) - (t453 - (t451 + w2_z * (pin2ax_x * w2_z)));
-  const Real t474 = w4_z * (pin2bx_y * w4_z) - (w2_z * (pin2ax_y * w2_z) - (t457 + t458));
-  const Real t481 = t454 * (c6 * w6_z) + (w2_z * (pin3ax_y * w2_z) - (t457 + t462));
-  const Real t485 = w2_z * (pin3ax_x * w2_z) + (w6_z * (s6 * t454) + (t451 + t463));
-  const Real t493 = t114 * (pin3ax2_x * t481 + (pin3ax2_y * t485 + (pin2ax2_y * t470 - pin2ax2_x * t474)));
-  const Real t495 = t470 - pin2ax2_y * t493;
-  const Real t497 = t474 + pin2ax2_x * t493;
-  const Real t499 = t485 - pin3ax2_y * t493;
-  const Real t501 = t481 - pin3ax2_x * t493;
+  const Real t446 = Real(0.225) * w6_z;
+  const Real t450 = t441 * (s5 * state.z[2]);
+  const Real w2_z = t427 + w1_z;
+  const Real t452 = state.z[0] * (r1_x * state.z[0]);
+  const Real t454 = t452 - w1_z * (r2_x * w1_z);
+  const Real t462 = w2_z * (pin3ax_x * w2_z) + (t446 * (s6 * w6_z) + (t450 - t454));
+  const Real t467 = t438 + w1_z * (r2_y * w1_z);
+  const Real t470 = w2_z * (pin3ax_y * w2_z) + (t446 * (c6 * w6_z) - (t444 + t467));
+  const Real t472 = state.z[1] * (r4_x * state.z[1]);
+  const Real w4_z = state.z[1] + t430;
+  const Real t476 = state.z[1] * (r4_y * state.z[1]);
+  const Real t481 = w4_z * (pin2bx_x * w4_z) - (t472 + (t454 - w2_z * (pin2ax_x * w2_z)));
+  const Real t485 = w4_z * (pin2bx_y * w4_z) + (t476 - (w2_z * (pin2ax_y * w2_z) - t467));
+  const Real t493 = t114 * (pin3ax2_x * t470 + (pin3ax2_y * t462 + (pin2ax2_y * t481 - pin2ax2_x * t485)));
+  const Real t495 = t481 - pin2ax2_y * t493;
+  const Real t497 = t485 + pin2ax2_x * t493;
+  const Real t499 = t462 - pin3ax2_y * t493;
+  const Real t501 = t470 - pin3ax2_x * t493;
   const Real t509 = t134 * (t126 * t501 - (t124 * t499 + (t120 * t495 + t122 * t497)));
   const Real t511 = t495 + t120 * t509;
   const Real t513 = t497 + t122 * t509;
@@ -972,7 +974,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real ral1o_z = t118 * t549 - (t138 * t545 + (t493 + t172 * t541));
   const Real h6b_x = s6 * Real(0.03375);
   const Real h6b_y = c6 * Real(0.03375);
-  const Real D6 = t78 * Real(0.00759375);
+  const Real D6 = t80 * Real(0.00759375);
   const Real E6 = D6 + Real(0.0050625);
   const Real h4b_x = s4 * Real(0.016874999999999998) - c4 * Real(0.029228357377724806);
   const Real h4b_y = c4 * Real(0.016874999999999998) + s4 * Real(0.029228357377724806);
@@ -1013,8 +1015,8 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real push5_0 = Real(10.0) * input.u[2];
   const Real zw_1 = t424 * (state.z[0] + w1_z);
   const Real rdn1_z = ral1o_z * J1;
-  const Real ra2o_x = t451 + r2_y * ral1o_z;
-  const Real ra2o_y = t457 - r2_x * ral1o_z;
+  const Real ra2o_x = t454 - r2_y * ral1o_z;
+  const Real ra2o_y = t467 - r2_x * ral1o_z;
   const Real zw_2 = t427 * (w1_z + w2_z);
   const Real rdf2_x = t549 * h2b_y - h2b_x * zw_2;
   const Real rdf2_y = t549 * h2b_x + h2b_y * zw_2;
@@ -1030,10 +1032,10 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real rf2c_x = rdf2_x + (ral1o_z * h1_y - h1_x * zw_1);
   const Real rf2c_y = rdf2_y + (ral1o_z * h1_x + h1_y * zw_1);
   const Real rn2c_z = r2_y * rdf2_x - (r2_x * rdf2_y + (rdn1_z + rdn2_z));
-  const Real rQ1_0 = rn2c_z + (t456 * h1_x - t450 * h1_y);
-  const Real rQ2_0 = rdn2_z - (h2b_y * ra2o_x - (ral1o_z * model.S2b_zz - h2b_x * ra2o_y));
-  const Real rQ4_0 = rdn4_z + (t458 * h4b_x - t453 * h4b_y);
-  const Real rQ6_0 = rdn6_z + (t462 * h6b_x + t463 * h6b_y);
+  const Real rQ1_0 = rn2c_z + (t438 * h1_x - t452 * h1_y);
+  const Real rQ2_0 = rdn2_z + (h2b_y * ra2o_x + (ral1o_z * model.S2b_zz - h2b_x * ra2o_y));
+  const Real rQ4_0 = rdn4_z + (t476 * h4b_x - t472 * h4b_y);
+  const Real rQ6_0 = rdn6_z + (t444 * h6b_x + t450 * h6b_y);
   const Real t810 = t408 * rQ6_0 + (t412 * rQ4_0 + (t416 * rQ2_0 - (t420 * rQ1_0 - (r6_y * rdf6_x - (r6_x *
       rdf6_y - (push5_0 - rdn6_z))))));
   const Real t819 = t673 * t810 + (t341 * rQ6_0 + (t345 * rQ4_0 + (t349 * rQ2_0 - (t353 * rQ1_0 + (r4_y *
@@ -1068,6 +1070,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real pin2ax2_x = r2_x + pin2ax_x;
   const Real pin2ax1_x = r1_x - pin2ax2_x;
   const Real pin2bx_x = c4 * Real(0.19485571585149872) - s4 * Real(0.11249999999999999);
+  const Real pin2bx4_x = r4_x - pin2bx_x;
   const Real r1_y = s0 * Real(0.19485571585149872) + c0 * Real(0.11249999999999999);
   const Real r2_y = s1 * Real(0.19485571585149872) - c1 * Real(0.11249999999999999);
   const Real r4_y = s3 * Real(0.19485571585149872) - c3 * Real(0.11249999999999999);
@@ -1075,10 +1078,11 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real pin2ax2_y = r2_y - pin2ax_y;
   const Real pin2ax1_y = r1_y + pin2ax2_y;
   const Real pin2bx_y = s4 * Real(0.19485571585149872) + c4 * Real(0.11249999999999999);
-  Real t77, t78;
-  detail::sine_cosine(state.y[6], t77, t78);
-  const Real s6 = c5 * t77 + s5 * t78;
-  const Real c6 = s5 * t77 - c5 * t78;
+  const Real pin2bx4_y = r4_y + pin2bx_y;
+  Real t79, t80;
+  detail::sine_cosine(state.y[6], t79, t80);
+  const Real s6 = c5 * t79 + s5 * t80;
+  const Real c6 = s5 * t79 - c5 * t80;
   const Real r6_x = s5 * Real(0.225);
   const Real pin3ax_x = c2 * Real(0.06928203230275509) - s2 * Real(0.12);
   const Real pin3ax2_x = r2_x + pin3ax_x;
@@ -1091,8 +1095,6 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real pin3ax1_y = r1_y + pin3ax2_y;
   const Real pin3bx_y = c6 * Real(0.225);
   const Real pin3bx6_y = r6_y - pin3bx_y;
-  const Real t104 = r4_y + pin2bx_y;
-  const Real t105 = r4_x - pin2bx_x;
   const Real t114 = Real(1.0) / (pin2ax2_x * pin2ax2_x + (pin2ax2_y * pin2ax2_y + (pin3ax2_y * pin3ax2_y +
       pin3ax2_x * pin3ax2_x)));
   const Real t118 = t114 * Real(0.031425) - Real(0.5);
@@ -1145,9 +1147,9 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t278 = t258 - t202 * t274;
   const Real t282 = t186 * t274 - (t242 - t152 * t278);
   const Real t286 = t172 * t274 + (t226 - (t138 * t278 + t118 * t282));
-  const Real t295 = t114 * (pin2ax2_y * t104 - pin2ax2_x * t105);
-  const Real t297 = t104 - pin2ax2_y * t295;
-  const Real t299 = t105 + pin2ax2_x * t295;
+  const Real t295 = t114 * (pin2ax2_y * pin2bx4_y - pin2ax2_x * pin2bx4_x);
+  const Real t297 = pin2bx4_y - pin2ax2_y * t295;
+  const Real t299 = pin2bx4_x + pin2ax2_x * t295;
   const Real t300 = pin3ax2_y * t295;
   const Real t301 = pin3ax2_x * t295;
   const Real t309 = t134 * (t122 * t299 + (t120 * t297 - (t124 * t300 - t126 * t301)));
@@ -1182,38 +1184,38 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t430 = t345 * state.z[1] + (t278 * state.z[0] + t412 * state.z[2]);
   const Real t433 = t341 * state.z[1] + (t274 * state.z[0] + t408 * state.z[2]);
   const Real w1_z = state.z[0] + t424;
-  const Real w2_z = t427 - w1_z;
-  const Real w4_z = state.z[1] + t430;
-  const Real t445 = Real(0.225) * state.z[2];
+  const Real t438 = state.z[0] * (r1_y * state.z[0]);
+  const Real t440 = w1_z * (r2_y * w1_z);
+  const Real t441 = Real(0.225) * state.z[2];
+  const Real t444 = t441 * (c5 * state.z[2]);
   const Real w6_z = state.z[2] + t433;
-  const Real t449 = w1_z * (r2_x * w1_z);
-  const Real t450 = state.z[0] * (r1_x * state.z[0]);
-  const Real t451 = t449 - t450;
-  const Real t453 = state.z[1] * (r4_x * state.z[1]);
-  const Real t454 = Real(0.225) * w6_z;
-  const Real t455 = w1_z * (r2_y * w1_z);
-  const Real t456 = state.z[0] * (r1_y * state.z[0]);
-  const Real t457 = t455 + t456;
-  const Real t458 = state.z[1] * (r4_y * state.z[1]);
-  const Real t462 = state.z[2] * (c5 * t445);
-  const Real t463 = t445 * (s5 * state.z[2]);
-  const Real t470 = w2_z * (pin2ax_x * w2_z) + (t451 - (t453 - w4_z * (pin2bx_x * w4_z)));
-  const Real t474 = t458 + (t457 - (w2_z * (pin2ax_y * w2_z) - w4_z * (pin2bx_y * w4_z)));
-  const Real t481 = t462 + (t457 - (w2_z * (pin3ax_y * w2_z) + t454 * (c6 * w6_z)));
-  const Real t485 = t463 + (t451 + (w6_z * (s6 * t454) + w2_z * (pin3ax_x * w2_z)));
-  const Real t493 = t114 * (pin2ax2_x * t474 - (pin2ax2_y * t470 + (pin3ax2_y * t485 - pin3ax2_x * t481)));
-  const Real t495 = t470 + pin2ax2_y * t493;
-  const Real t497 = t474 - pin2ax2_x * t493;
-  const Real t499 = t485 + pin3ax2_y * t493;
-  const Real t501 = t481 - pin3ax2_x * t493;
-  const Real t509 = t134 * (t122 * t497 + (t120 * t495 + (t124 * t499 + t126 * t501)));
+  const Real t446 = Real(0.225) * w6_z;
+  const Real t450 = t441 * (s5 * state.z[2]);
+  const Real w2_z = t427 - w1_z;
+  const Real t452 = state.z[0] * (r1_x * state.z[0]);
+  const Real t453 = w1_z * (r2_x * w1_z);
+  const Real t454 = t452 - t453;
+  const Real t462 = t454 - (t450 + (t446 * (s6 * w6_z) + w2_z * (pin3ax_x * w2_z)));
+  const Real t467 = t438 + t440;
+  const Real t470 = t467 + (t444 - (t446 * (c6 * w6_z) + w2_z * (pin3ax_y * w2_z)));
+  const Real t472 = state.z[1] * (r4_x * state.z[1]);
+  const Real w4_z = state.z[1] + t430;
+  const Real t476 = state.z[1] * (r4_y * state.z[1]);
+  const Real t481 = w2_z * (pin2ax_x * w2_z) - (t454 + (t472 - w4_z * (pin2bx_x * w4_z)));
+  const Real t485 = t467 - (w2_z * (pin2ax_y * w2_z) - (t476 + w4_z * (pin2bx_y * w4_z)));
+  const Real t493 = t114 * (pin2ax2_x * t485 - (pin2ax2_y * t481 - (pin3ax2_y * t462 + pin3ax2_x * t470)));
+  const Real t495 = t481 + pin2ax2_y * t493;
+  const Real t497 = t485 - pin2ax2_x * t493;
+  const Real t499 = t462 - pin3ax2_y * t493;
+  const Real t501 = t470 - pin3ax2_x * t493;
+  const Real t509 = t134 * (t122 * t497 + (t120 * t495 - (t124 * t499 - t126 * t501)));
   const Real t511 = t495 - t120 * t509;
   const Real t513 = t497 - t122 * t509;
-  const Real t515 = t499 - t124 * t509;
+  const Real t515 = t499 + t124 * t509;
   const Real t517 = t501 - t126 * t509;
-  const Real t525 = t168 * (t156 * t513 - (t154 * t511 - (t158 * t515 - t160 * t517)));
-  const Real t541 = t218 * (t206 * (t513 - t156 * t525) - (t204 * (t511 + t154 * t525) - (t208 * (t515 - t158
-      * t525) + t210 * (t517 + t160 * t525))));
+  const Real t525 = t168 * (t156 * t513 - (t154 * t511 + (t158 * t515 + t160 * t517)));
+  const Real t541 = t218 * (t206 * (t513 - t156 * t525) - (t204 * (t511 + t154 * t525) + (t208 * (t515 + t158
+      * t525) - t210 * (t517 + t160 * t525))));
   const Real t545 = t525 - t202 * t541;
   const Real t549 = t186 * t541 - (t509 - t152 * t545);
   const Real t568 = t172 * t541 + (t493 - (t138 * t545 + (t118 * t549 + (t286 * zdot[0] + (t353 * zdot[1] +
@@ -1233,25 +1235,25 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real h1_y = s1 * model.platform_h_x - (h2b_y + c1 * model.platform_h_y);
   const Real J1 = D2 + D2 + model.c7;
   const Real D1 = r1_x * h1_x - r1_y * h1_y;
-  const Real aa1o_x = t450 + r1_y * zdot[0];
-  const Real aa1o_y = t456 - r1_x * zdot[0];
+  const Real aa1o_x = t452 + r1_y * zdot[0];
+  const Real aa1o_y = t438 - r1_x * zdot[0];
   const Real zw_1 = t424 * (state.z[0] + w1_z);
   const Real adn1_z = t568 * J1;
   const Real aal1o_z = zdot[0] - t568;
-  const Real aa2o_x = t449 - (aa1o_x + r2_y * aal1o_z);
-  const Real aa2o_y = r2_x * aal1o_z + (t455 + aa1o_y);
+  const Real aa2o_x = t453 - (aa1o_x + r2_y * aal1o_z);
+  const Real aa2o_y = r2_x * aal1o_z + (t440 + aa1o_y);
   const Real zw_2 = t427 * (w1_z - w2_z);
   const Real adf2_x = t572 * h2b_y + h2b_x * zw_2;
   const Real adf2_y = t572 * h2b_x - h2b_y * zw_2;
   const Real adn2_z = t572 * model.S2b_zz;
-  const Real aa4o_x = t453 + r4_y * zdot[1];
-  const Real aa4o_y = t458 - r4_x * zdot[1];
+  const Real aa4o_x = t472 + r4_y * zdot[1];
+  const Real aa4o_y = t476 - r4_x * zdot[1];
   const Real zw_4 = t430 * (state.z[1] + w4_z);
   const Real adf4_x = t576 * h4b_y + h4b_x * zw_4;
   const Real adf4_y = t576 * h4b_x - h4b_y * zw_4;
   const Real adn4_z = t576 * Real(0.0050625);
-  const Real aa6o_x = t463 - r6_y * zdot[2];
-  const Real aa6o_y = t462 + r6_x * zdot[2];
+  const Real aa6o_x = t450 - r6_y * zdot[2];
+  const Real aa6o_y = t444 + r6_x * zdot[2];
   const Real zw_6 = t433 * (state.z[2] + w6_z);
   const Real adf6_x = t580 * h6b_y + h6b_x * zw_6;
   const Real adf6_y = t580 * h6b_x - h6b_y * zw_6;
@@ -1268,7 +1270,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   tau[1] = r4_x * adf4_y + (adn4_z + (r4_y * adf4_x + (t353 * aQ1_0 - (t349 * aQ2_0 + (t345 * aQ4_0 - (t341 *
       aQ6_0 + zdot[1] * (D4 + D4 + Real(0.029))))))));
   tau[2] = r6_x * adf6_y + (adn6_z - (r6_y * adf6_x - (t420 * aQ1_0 - (t416 * aQ2_0 + (t412 * aQ4_0 - (t408 *
-      aQ6_0 + zdot[2] * (Real(0.029) + t78 * Real(0.0151875))))))));
+      aQ6_0 + zdot[2] * (Real(0.029) + t80 * Real(0.0151875))))))));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -1290,6 +1292,7 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real pin2ax2_x = r2_x + pin2ax_x;
   const Real pin2ax1_x = r1_x - pin2ax2_x;
   const Real pin2bx_x = c4 * Real(0.19485571585149872) - s4 * Real(0.11249999999999999);
+  const Real pin2bx4_x = r4_x - pin2bx_x;
   const Real r1_y = s0 * Real(0.19485571585149872) + c0 * Real(0.11249999999999999);
   const Real r2_y = s1 * Real(0.19485571585149872) - c1 * Real(0.11249999999999999);
   const Real r4_y = s3 * Real(0.19485571585149872) - c3 * Real(0.11249999999999999);
@@ -1297,10 +1300,11 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real pin2ax2_y = r2_y - pin2ax_y;
   const Real pin2ax1_y = r1_y + pin2ax2_y;
   const Real pin2bx_y = s4 * Real(0.19485571585149872) + c4 * Real(0.11249999999999999);
-  Real t77, t78;
-  detail::sine_cosine(state.y[6], t77, t78);
-  const Real s6 = c5 * t77 + s5 * t78;
-  const Real c6 = s5 * t77 - c5 * t78;
+  const Real pin2bx4_y = r4_y + pin2bx_y;
+  Real t79, t80;
+  detail::sine_cosine(state.y[6], t79, t80);
+  const Real s6 = c5 * t79 + s5 * t80;
+  const Real c6 = s5 * t79 - c5 * t80;
   const Real r6_x = s5 * Real(0.225);
   const Real pin3ax_x = c2 * Real(0.06928203230275509) - s2 * Real(0.12);
   const Real pin3ax2_x = r2_x + pin3ax_x;
@@ -1313,8 +1317,6 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real pin3ax1_y = r1_y + pin3ax2_y;
   const Real pin3bx_y = c6 * Real(0.225);
   const Real pin3bx6_y = r6_y - pin3bx_y;
-  const Real t104 = r4_y + pin2bx_y;
-  const Real t105 = r4_x - pin2bx_x;
   const Real t114 = Real(1.0) / (pin3ax2_x * pin3ax2_x + (pin3ax2_y * pin3ax2_y + (pin2ax2_y * pin2ax2_y +
       pin2ax2_x * pin2ax2_x)));
   const Real t118 = t114 * Real(0.031425) - Real(0.5);
@@ -1366,9 +1368,9 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
       * t258) - t206 * (t246 + t156 * t258))));
   const Real t278 = t258 - t202 * t274;
   const Real t282 = t152 * t278 - (t242 - t186 * t274);
-  const Real t295 = t114 * (pin2ax2_y * t104 - pin2ax2_x * t105);
-  const Real t297 = t104 - pin2ax2_y * t295;
-  const Real t299 = t105 + pin2ax2_x * t295;
+  const Real t295 = t114 * (pin2ax2_y * pin2bx4_y - pin2ax2_x * pin2bx4_x);
+  const Real t297 = pin2bx4_y - pin2ax2_y * t295;
+  const Real t299 = pin2bx4_x + pin2ax2_x * t295;
   const Real t300 = pin3ax2_y * t295;
   const Real t301 = pin3ax2_x * t295;
   const Real t309 = t134 * (t126 * t301 - (t124 * t300 - (t120 * t297 + t122 * t299)));
@@ -1403,7 +1405,7 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real t430 = t412 * state.z[2] - (t278 * state.z[0] + t345 * state.z[1]);
   const Real t433 = t408 * state.z[2] - (t274 * state.z[0] + t341 * state.z[1]);
   const Real w1_z = state.z[0] + t424;
-  const Real J5 = t78 * Real(0.0151875) + Real(0.027);
+  const Real J5 = t80 * Real(0.0151875) + Real(0.027);
   const Real h4b_x = s4 * Real(0.016874999999999998) - c4 * Real(0.029228357377724806);
   const Real h4b_y = c4 * Real(0.016874999999999998) + s4 * Real(0.029228357377724806);
   const Real D4 = r4_x * h4b_x + r4_y * h4b_y;
@@ -1422,8 +1424,8 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real v1P_x = t424 * h1_y;
   const Real v1P_y = t424 * h1_x;
   const Real v1L_z = t424 * J1;
-  const Real v2o_x = v1o_x + r2_y * w1_z;
-  const Real v2o_y = v1o_y - r2_x * w1_z;
+  const Real v2o_x = r2_y * w1_z + v1o_x;
+  const Real v2o_y = r2_x * w1_z - v1o_y;
   const Real v2P_x = t427 * h2b_y;
   const Real v2P_y = t427 * h2b_x;
   const Real v2L_z = t427 * model.S2b_zz;
@@ -1440,8 +1442,8 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real T_rotor = (v6o_x * (c6 * t433) - v6o_y * (s6 * t433)) * Real(0.03375) + ((state.z[2] * state.z[2]
       + (state.z[0] * state.z[0] + state.z[1] * state.z[1])) * Real(0.001) + (Real(0.5) * (state.z[2] * v5L_z
       + (state.z[1] * v3L_z - (state.z[0] * v0L_z - (t424 * v1L_z + (t427 * v2L_z + (t430 * v4L_z + t433 *
-      v6L_z)))))) - (state.z[2] * v6L_z - (v4o_y * v4P_y + (v4o_x * v4P_x + (state.z[1] * v4L_z - (v2o_y *
-      v2P_y + (v2o_x * v2P_x - (w1_z * v2L_z - (v1o_y * v1P_y - (state.z[0] * v1L_z - v1o_x *
+      v6L_z)))))) - (state.z[2] * v6L_z - (v4o_y * v4P_y + (v4o_x * v4P_x + (state.z[1] * v4L_z + (v2o_y *
+      v2P_y - (v2o_x * v2P_x - (w1_z * v2L_z - (v1o_y * v1P_y - (state.z[0] * v1L_z - v1o_x *
       v1P_x)))))))))));
   return T_rotor;
 }
@@ -1466,20 +1468,24 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
   const Real r2_x = c1 * Real(0.19485571585149872) + s1 * Real(0.11249999999999999);
   const Real s4 = c3 * t33 + s3 * t34;
   const Real c4 = s3 * t33 - c3 * t34;
+  const Real r4_x = c3 * Real(0.19485571585149872) + s3 * Real(0.11249999999999999);
   const Real pin2ax_x = c2 * Real(0.13856406460551018) + s2 * Real(1.0546217409559561e-17);
   const Real pin2ax2_x = r2_x + pin2ax_x;
   const Real pin2ax1_x = r1_x - pin2ax2_x;
   const Real pin2bx_x = c4 * Real(0.19485571585149872) - s4 * Real(0.11249999999999999);
+  const Real pin2bx4_x = r4_x - pin2bx_x;
   const Real r1_y = s0 * Real(0.19485571585149872) + c0 * Real(0.11249999999999999);
   const Real r2_y = s1 * Real(0.19485571585149872) - c1 * Real(0.11249999999999999);
+  const Real r4_y = s3 * Real(0.19485571585149872) - c3 * Real(0.11249999999999999);
   const Real pin2ax_y = s2 * Real(0.13856406460551018) - c2 * Real(1.0546217409559561e-17);
   const Real pin2ax2_y = r2_y - pin2ax_y;
   const Real pin2ax1_y = r1_y + pin2ax2_y;
   const Real pin2bx_y = s4 * Real(0.19485571585149872) + c4 * Real(0.11249999999999999);
-  Real t75, t76;
-  detail::sine_cosine(state.y[6], t75, t76);
-  const Real s6 = c5 * t75 + s5 * t76;
-  const Real c6 = s5 * t75 - c5 * t76;
+  const Real pin2bx4_y = r4_y + pin2bx_y;
+  Real t79, t80;
+  detail::sine_cosine(state.y[6], t79, t80);
+  const Real s6 = c5 * t79 + s5 * t80;
+  const Real c6 = s5 * t79 - c5 * t80;
   const Real r6_x = s5 * Real(0.225);
   const Real pin3ax_x = c2 * Real(0.06928203230275509) - s2 * Real(0.12);
   const Real pin3ax2_x = r2_x + pin3ax_x;
@@ -1492,8 +1498,6 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
   const Real pin3ax1_y = r1_y + pin3ax2_y;
   const Real pin3bx_y = c6 * Real(0.225);
   const Real pin3bx6_y = r6_y - pin3bx_y;
-  const Real t104 = c3 * Real(0.11249999999999999) - (s3 * Real(0.19485571585149872) + pin2bx_y);
-  const Real t105 = c3 * Real(0.19485571585149872) + (s3 * Real(0.11249999999999999) - pin2bx_x);
   const Real t114 = Real(1.0) / (pin2ax2_y * pin2ax2_y + pin2ax2_x * pin2ax2_x + pin3ax2_y * pin3ax2_y +
       pin3ax2_x * pin3ax2_x);
   const Real t118 = t114 * Real(0.031425) - Real(0.5);
@@ -1545,18 +1549,18 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
       t258) - t210 * (t250 - t160 * t258));
   const Real t280 = t258 - t202 * t274;
   const Real t284 = t242 - t186 * t274 - t152 * t280;
-  const Real t293 = t114 * (pin2ax2_y * t104 + pin2ax2_x * t105);
-  const Real t295 = t104 - pin2ax2_y * t293;
-  const Real t297 = t105 - pin2ax2_x * t293;
+  const Real t293 = t114 * (pin2ax2_y * pin2bx4_y - pin2ax2_x * pin2bx4_x);
+  const Real t295 = pin2bx4_y - pin2ax2_y * t293;
+  const Real t297 = pin2bx4_x + pin2ax2_x * t293;
   const Real t298 = pin3ax2_y * t293;
   const Real t299 = pin3ax2_x * t293;
-  const Real t307 = t134 * (t120 * t295 - t122 * t297 - t124 * t298 + t126 * t299);
+  const Real t307 = t134 * (t120 * t295 + t122 * t297 - t124 * t298 + t126 * t299);
   const Real t309 = t295 - t120 * t307;
-  const Real t311 = t297 + t122 * t307;
+  const Real t311 = t297 - t122 * t307;
   const Real t313 = t298 + t124 * t307;
   const Real t315 = t299 - t126 * t307;
-  const Real t323 = t168 * (t154 * t309 + t156 * t311 + t158 * t313 + t160 * t315);
-  const Real t339 = t218 * (t204 * (t309 - t154 * t323) + t206 * (t311 - t156 * t323) + t208 * (t313 - t158 *
+  const Real t323 = t168 * (t154 * t309 - t156 * t311 + t158 * t313 + t160 * t315);
+  const Real t339 = t218 * (t204 * (t309 - t154 * t323) - t206 * (t311 + t156 * t323) + t208 * (t313 - t158 *
       t323) - t210 * (t315 - t160 * t323));
   const Real t345 = t323 - t202 * t339;
   const Real t349 = t307 - t186 * t339 - t152 * t345;
@@ -1575,9 +1579,9 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
       t390) - t210 * (t382 - t160 * t390));
   const Real t412 = t390 - t202 * t406;
   const Real t416 = t374 - t186 * t406 - t152 * t412;
-  const Real t421 = (t226 + t172 * t274 - t138 * t280 - t118 * t284) * state.z[0] - (t293 + t172 * t339 - t138
+  const Real t421 = (t226 + t172 * t274 - t138 * t280 - t118 * t284) * state.z[0] + (t293 + t172 * t339 - t138
       * t345 - t118 * t349) * state.z[1] + (t360 - t172 * t406 + t138 * t412 + t118 * t416) * state.z[2];
-  const Real t423 = t284 * state.z[0] - t349 * state.z[1] - t416 * state.z[2];
+  const Real t423 = t284 * state.z[0] + t349 * state.z[1] - t416 * state.z[2];
   const Real w1_z = state.z[0] - t421;
   const Real w2_z = t423 + w1_z;
   const Real centerx_x = c2 * Real(0.06928203230275509) - s2 * Real(0.039999999999999994);
@@ -1906,6 +1910,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real pin2ax2_x = r2_x + pin2ax_x;
   const Real pin2ax1_x = r1_x - pin2ax2_x;
   const Real pin2bx_x = c4 * Real(0.19485571585149872) - s4 * Real(0.11249999999999999);
+  const Real pin2bx4_x = r4_x - pin2bx_x;
   const Real r1_y = s0 * Real(0.19485571585149872) + c0 * Real(0.11249999999999999);
   const Real r2_y = s1 * Real(0.19485571585149872) - c1 * Real(0.11249999999999999);
   const Real r4_y = s3 * Real(0.19485571585149872) - c3 * Real(0.11249999999999999);
@@ -1913,10 +1918,11 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real pin2ax2_y = r2_y - pin2ax_y;
   const Real pin2ax1_y = r1_y + pin2ax2_y;
   const Real pin2bx_y = s4 * Real(0.19485571585149872) + c4 * Real(0.11249999999999999);
-  Real t77, t78;
-  detail::sine_cosine(state.y[6], t77, t78);
-  const Real s6 = c5 * t77 + s5 * t78;
-  const Real c6 = s5 * t77 - c5 * t78;
+  const Real pin2bx4_y = r4_y + pin2bx_y;
+  Real t79, t80;
+  detail::sine_cosine(state.y[6], t79, t80);
+  const Real s6 = c5 * t79 + s5 * t80;
+  const Real c6 = s5 * t79 - c5 * t80;
   const Real r6_x = s5 * Real(0.225);
   const Real pin3ax_x = c2 * Real(0.06928203230275509) - s2 * Real(0.12);
   const Real pin3ax2_x = r2_x + pin3ax_x;
@@ -1929,8 +1935,6 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real pin3ax1_y = r1_y + pin3ax2_y;
   const Real pin3bx_y = c6 * Real(0.225);
   const Real pin3bx6_y = r6_y - pin3bx_y;
-  const Real t104 = r4_y + pin2bx_y;
-  const Real t105 = r4_x - pin2bx_x;
   const Real t114 = Real(1.0) / (pin3ax2_x * pin3ax2_x + (pin3ax2_y * pin3ax2_y + (pin2ax2_y * pin2ax2_y +
       pin2ax2_x * pin2ax2_x)));
   const Real t118 = t114 * Real(0.031425) - Real(0.5);
@@ -1983,9 +1987,9 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t278 = t258 - t202 * t274;
   const Real t282 = t152 * t278 - (t242 - t186 * t274);
   const Real t286 = t118 * t282 - (t138 * t278 + (t226 + t172 * t274));
-  const Real t295 = t114 * (pin2ax2_y * t104 - pin2ax2_x * t105);
-  const Real t297 = t104 - pin2ax2_y * t295;
-  const Real t299 = t105 + pin2ax2_x * t295;
+  const Real t295 = t114 * (pin2ax2_y * pin2bx4_y - pin2ax2_x * pin2bx4_x);
+  const Real t297 = pin2bx4_y - pin2ax2_y * t295;
+  const Real t299 = pin2bx4_x + pin2ax2_x * t295;
   const Real t300 = pin3ax2_y * t295;
   const Real t301 = pin3ax2_x * t295;
   const Real t309 = t134 * (t126 * t301 - (t124 * t300 - (t120 * t297 + t122 * t299)));
@@ -2020,30 +2024,30 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t430 = t412 * state.z[2] - (t278 * state.z[0] + t345 * state.z[1]);
   const Real t433 = t408 * state.z[2] - (t274 * state.z[0] + t341 * state.z[1]);
   const Real w1_z = state.z[0] + t424;
-  const Real w2_z = t427 + w1_z;
-  const Real w4_z = state.z[1] + t430;
-  const Real t445 = Real(0.225) * state.z[2];
-  const Real w6_z = state.z[2] - t433;
-  const Real t449 = w1_z * (r2_x * w1_z);
-  const Real ra1o_x = state.z[0] * (r1_x * state.z[0]);
-  const Real t451 = t449 - ra1o_x;
-  const Real ra4o_x = state.z[1] * (r4_x * state.z[1]);
-  const Real t454 = Real(0.225) * w6_z;
-  const Real t455 = w1_z * (r2_y * w1_z);
   const Real ra1o_y = state.z[0] * (r1_y * state.z[0]);
-  const Real t457 = t455 + ra1o_y;
+  const Real t440 = w1_z * (r2_y * w1_z);
+  const Real t441 = Real(0.225) * state.z[2];
+  const Real ra6o_y = t441 * (c5 * state.z[2]);
+  const Real w6_z = state.z[2] - t433;
+  const Real t446 = Real(0.225) * w6_z;
+  const Real ra6o_x = t441 * (s5 * state.z[2]);
+  const Real w2_z = t427 + w1_z;
+  const Real ra1o_x = state.z[0] * (r1_x * state.z[0]);
+  const Real t453 = w1_z * (r2_x * w1_z);
+  const Real t454 = ra1o_x - t453;
+  const Real t462 = w2_z * (pin3ax_x * w2_z) + (t446 * (s6 * w6_z) + (ra6o_x - t454));
+  const Real t467 = ra1o_y + t440;
+  const Real t470 = w2_z * (pin3ax_y * w2_z) + (t446 * (c6 * w6_z) - (ra6o_y + t467));
+  const Real ra4o_x = state.z[1] * (r4_x * state.z[1]);
+  const Real w4_z = state.z[1] + t430;
   const Real ra4o_y = state.z[1] * (r4_y * state.z[1]);
-  const Real ra6o_y = state.z[2] * (c5 * t445);
-  const Real ra6o_x = t445 * (s5 * state.z[2]);
-  const Real t470 = w4_z * (pin2bx_x * w4_z) - (ra4o_x - (t451 + w2_z * (pin2ax_x * w2_z)));
-  const Real t474 = w4_z * (pin2bx_y * w4_z) - (w2_z * (pin2ax_y * w2_z) - (t457 + ra4o_y));
-  const Real t481 = t454 * (c6 * w6_z) + (w2_z * (pin3ax_y * w2_z) - (t457 + ra6o_y));
-  const Real t485 = w2_z * (pin3ax_x * w2_z) + (w6_z * (s6 * t454) + (t451 + ra6o_x));
-  const Real t493 = t114 * (pin3ax2_x * t481 + (pin3ax2_y * t485 + (pin2ax2_y * t470 - pin2ax2_x * t474)));
-  const Real t495 = t470 - pin2ax2_y * t493;
-  const Real t497 = t474 + pin2ax2_x * t493;
-  const Real t499 = t485 - pin3ax2_y * t493;
-  const Real t501 = t481 - pin3ax2_x * t493;
+  const Real t481 = w4_z * (pin2bx_x * w4_z) - (ra4o_x + (t454 - w2_z * (pin2ax_x * w2_z)));
+  const Real t485 = w4_z * (pin2bx_y * w4_z) + (ra4o_y - (w2_z * (pin2ax_y * w2_z) - t467));
+  const Real t493 = t114 * (pin3ax2_x * t470 + (pin3ax2_y * t462 + (pin2ax2_y * t481 - pin2ax2_x * t485)));
+  const Real t495 = t481 - pin2ax2_y * t493;
+  const Real t497 = t485 + pin2ax2_x * t493;
+  const Real t499 = t462 - pin3ax2_y * t493;
+  const Real t501 = t470 - pin3ax2_x * t493;
   const Real t509 = t134 * (t126 * t501 - (t124 * t499 + (t120 * t495 + t122 * t497)));
   const Real t511 = t495 + t120 * t509;
   const Real t513 = t497 + t122 * t509;
@@ -2057,7 +2061,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real ral1o_z = t118 * t549 - (t138 * t545 + (t493 + t172 * t541));
   const Real h6b_x = s6 * Real(0.03375);
   const Real h6b_y = c6 * Real(0.03375);
-  const Real D6 = t78 * Real(0.00759375);
+  const Real D6 = t80 * Real(0.00759375);
   const Real E6 = D6 + Real(0.0050625);
   const Real h4b_x = s4 * Real(0.016874999999999998) - c4 * Real(0.029228357377724806);
   const Real h4b_y = c4 * Real(0.016874999999999998) + s4 * Real(0.029228357377724806);
@@ -2098,8 +2102,8 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real push5_0 = Real(10.0) * input.u[2];
   const Real zw_1 = t424 * (state.z[0] + w1_z);
   const Real rdn1_z = ral1o_z * J1;
-  const Real ra2o_x = t451 + r2_y * ral1o_z;
-  const Real ra2o_y = t457 - r2_x * ral1o_z;
+  const Real ra2o_x = t454 - r2_y * ral1o_z;
+  const Real ra2o_y = t467 - r2_x * ral1o_z;
   const Real zw_2 = t427 * (w1_z + w2_z);
   const Real t740 = h2b_x * zw_2;
   const Real rdf2_x = t549 * h2b_y - t740;
@@ -2118,7 +2122,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real rf2c_y = rdf2_y + (ral1o_z * h1_x + h1_y * zw_1);
   const Real rn2c_z = r2_y * rdf2_x - (r2_x * rdf2_y + (rdn1_z + rdn2_z));
   const Real rQ1_0 = rn2c_z + (ra1o_y * h1_x - ra1o_x * h1_y);
-  const Real rQ2_0 = rdn2_z - (h2b_y * ra2o_x - (ral1o_z * model.S2b_zz - h2b_x * ra2o_y));
+  const Real rQ2_0 = rdn2_z + (h2b_y * ra2o_x + (ral1o_z * model.S2b_zz - h2b_x * ra2o_y));
   const Real rQ4_0 = rdn4_z + (ra4o_y * h4b_x - ra4o_x * h4b_y);
   const Real rQ6_0 = rdn6_z + (ra6o_y * h6b_x + ra6o_x * h6b_y);
   const Real t810 = t408 * rQ6_0 + (t412 * rQ4_0 + (t416 * rQ2_0 - (t420 * rQ1_0 - (r6_y * rdf6_x - (r6_x *
@@ -2135,8 +2139,8 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real ra1o_x_2 = ra1o_x - r1_y * t831;
   const Real ra1o_y_2 = ra1o_y + r1_x * t831;
   const Real ral1o_z_2 = t420 * t839 - (t831 - (t353 * t834 - (ral1o_z - t286 * t831)));
-  const Real ra2o_x_2 = r2_y * ral1o_z_2 - (t449 - ra1o_x_2);
-  const Real ra2o_y_2 = r2_x * ral1o_z_2 + (t455 + ra1o_y_2);
+  const Real ra2o_x_2 = r2_y * ral1o_z_2 - (t453 - ra1o_x_2);
+  const Real ra2o_y_2 = r2_x * ral1o_z_2 + (t440 + ra1o_y_2);
   const Real rdf2_x_2 = t740 + h2b_y * t852;
   const Real rdf2_y_2 = t743 - h2b_x * t852;
   const Real rdn2_z_2 = model.S2b_zz * t852;

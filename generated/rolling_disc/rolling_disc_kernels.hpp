@@ -72,18 +72,21 @@ Model<Real>::Model(const Parameters& parameters) noexcept {
   const Real disc_S_yy = disc_S_xx - S0b_zz;
   kdS00 = disc_S_xx + disc_S_yy;
   q_2 = mass * Real(9.81);
-  S0b_zz_2 = disc_S_xx - disc_S_yy;
-  c6 = Real(1.0) / S0b_zz_2;
+  const Real disc_S_yy_2 = t9 + (t9 - disc_S_xx);
+  const Real S0b_zz_3 = disc_S_xx + disc_S_yy_2;
+  c6 = Real(1.0) / S0b_zz_3;
   c7 = Real(1.0) / Jy0;
-  c12 = Real(1.0) / mass;
-  c8 = c12 + Real(4.9999999999999995e-11);
-  c9 = c12 + Real(1.5000000000000002e-10);
-  c10 = c12 + Real(2.5e-10);
-  c11 = q_2 * c12;
-  c14 = Real(0.5) * mass;
-  c15 = radius * Real(0.5);
-  c16 = Real(1.0) / S0b_zz;
-  c17 = kdS00 * c6;
+  c13 = Real(1.0) / mass;
+  c8 = c13 + Real(4.9999999999999995e-11);
+  c9 = c13 + Real(1.5000000000000002e-10);
+  c10 = c13 + Real(2.5e-10);
+  rdS00 = disc_S_xx - disc_S_yy_2;
+  c12 = q_2 * c13;
+  S0b_zz_2 = disc_S_xx - disc_S_yy;
+  c15 = Real(0.5) * mass;
+  c16 = radius * Real(0.5);
+  c17 = Real(1.0) / S0b_zz;
+  c18 = c6 * rdS00;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -186,11 +189,11 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t20 = q0r2_y + q0r2_y;
   const Real t21 = Real(1.0) / groundup;
   const Real t22 = Real(0.5) * t21;
-  const Real q0r2_x = Real(2.0) * (q0d3 * t17 - state.y[5] * state.y[3]);
-  const Real t34 = t20 * t22;
-  const Real t36 = t34 * model.radius;
-  const Real t37 = (q0d1 * t17 - (state.y[3] * state.y[3] + (q0d3 * t19 - state.y[5] * state.y[5]))) * t36;
-  const Real t38 = q0r2_x * t36;
+  const Real t24 = t22 * model.radius;
+  const Real t25 = t20 * t24;
+  const Real q0r2_x = Real(2.0) * (state.y[5] * state.y[3] - q0d1 * t19);
+  const Real t37 = t25 * (q0d3 * t19 - (state.y[5] * state.y[5] - (state.y[3] * state.y[3] - q0d1 * t17)));
+  const Real t38 = t25 * q0r2_x;
   const Real q0d2 = Real(2.0) * state.y[5];
   const Real q011 = state.y[4] * q0d1;
   const Real q022 = state.y[5] * q0d2;
@@ -204,19 +207,17 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real q0r1_y = q033 - t48;
   const Real q0r1_z = q023 - q001;
   const Real q0r2_z = q022 - t48;
-  const Real t52 = model.radius * q0r1_y;
-  const Real groundc_y = t34 * t52;
+  const Real groundc_y = t25 * q0r1_y;
   const Real groundc_z = model.radius * (t12 / groundup);
-  const Real grounds1bn0_x = q0r1_x * groundc_z + q0r2_x * groundc_y;
-  const Real grounds1bn0_y = t21 * t52;
+  const Real grounds1bn0_x = q0r1_x * groundc_z - q0r2_x * groundc_y;
+  const Real grounds1bn0_y = model.radius * (t21 * q0r1_y);
   const Real grounds1bn0_z = q0r1_z * groundc_z - q0r2_z * groundc_y;
-  const Real q0r0_x = q022 - (Real(1.0) - q033);
+  const Real q0r0_x = q033 - (Real(1.0) - q022);
   const Real q0r0_y = q012 - q003;
   const Real q0r0_z = q013 + q002;
-  const Real t67 = model.radius * q0r0_y;
-  const Real groundc_x = t34 * t67;
-  const Real grounds2bn0_x = groundc_z * q0r0_x + q0r2_x * groundc_x;
-  const Real grounds2bn0_y = t21 * t67;
+  const Real groundc_x = t25 * q0r0_y;
+  const Real grounds2bn0_x = groundc_z * q0r0_x - q0r2_x * groundc_x;
+  const Real grounds2bn0_y = model.radius * (t21 * q0r0_y);
   const Real grounds2bn0_z = groundc_z * q0r0_z + q0r2_z * groundc_x;
   const Real t82 = grounds1bn0_x * model.c6;
   const Real t83 = grounds1bn0_z * model.c6;
@@ -228,52 +229,53 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t108 = Real(1.0) / (model.c6 * (t37 * t37 + t38 * t38) + model.c8);
   const Real t109 = t86 * t108;
   const Real t116 = t97 * t108;
-  const Real t120 = t86 * t116 + (grounds1bn0_z * t94 - (grounds1bn0_x * t92 + grounds1bn0_y * t93));
-  const Real t122 = Real(1.0) / (t86 * t109 - (grounds1bn0_z * t83 + (grounds1bn0_x * t82 + grounds1bn0_y *
-      grounds1bn0_y * model.c7)) - model.c9);
+  const Real t120 = grounds1bn0_y * t93 + (grounds1bn0_x * t92 - (grounds1bn0_z * t94 + t86 * t116));
+  const Real t122 = Real(1.0) / (grounds1bn0_x * t82 + (grounds1bn0_y * grounds1bn0_y * model.c7 +
+      (grounds1bn0_z * t83 - t86 * t109)) + model.c9);
   const Real t123 = t120 * t122;
-  const Real t131 = Real(1.0) / (t120 * t123 - (t97 * t116 - (grounds2bn0_z * t94 + (grounds2bn0_x * t92 +
-      grounds2bn0_y * t93))) + model.c10);
-  const Real t136 = t19 * state.z[5] + (t17 * state.z[3] + t18 * state.z[4]);
-  const Real t141 = t18 * state.z[5] + (t16 * state.z[3] - t19 * state.z[4]);
-  const Real t146 = t17 * state.z[5] - (t19 * state.z[3] + t16 * state.z[4]);
-  const Real t151 = t16 * state.z[5] - (t18 * state.z[3] - t17 * state.z[4]);
-  const Real t155 = Real(2.0) * state.y[3];
-  const Real t169 = t141 * (q0d1 + q0d1);
-  const Real t196 = t141 * t155 - q0d1 * t136 + (q0d2 * t151 - q0d3 * t146);
-  const Real t202 = q0r2_x * state.z[3] - (q0r2_z * state.z[5] - q0r2_y * state.z[4]);
-  const Real t211 = (t21 + t20 * (t34 * (t21 * t22))) * t196;
-  const Real t214 = (t36 + t36 + t34 * (t21 * groundc_z)) * t196;
+  const Real t131 = Real(1.0) / (grounds2bn0_x * t92 + (grounds2bn0_y * t93 + (grounds2bn0_z * t94 - (t97 *
+      t116 + t120 * t123))) + model.c10);
+  const Real t136 = t18 * state.z[4] + (t17 * state.z[3] + t19 * state.z[5]);
+  const Real t141 = t19 * state.z[4] - (t16 * state.z[3] + t18 * state.z[5]);
+  const Real t146 = t16 * state.z[4] + (t19 * state.z[3] - t17 * state.z[5]);
+  const Real t151 = t17 * state.z[4] - (t18 * state.z[3] - t16 * state.z[5]);
+  const Real t156 = Real(2.0) * state.y[3];
+  const Real t164 = t141 * (q0d1 + q0d1);
+  const Real t169 = Real(2.0) * t146;
+  const Real t179 = q0d1 * t136 + t141 * t156 - (q0d3 * t146 + q0d2 * t151);
+  const Real t189 = q0r2_y * state.z[4] - (q0r2_z * state.z[5] + q0r2_x * state.z[3]);
+  const Real t192 = q0r2_y * t21;
+  const Real t214 = t179 * (model.radius * (t20 * (t21 * t22 * t192)) + Real(2.0) * t24);
+  const Real t217 = t179 * (t25 + t25 + t21 * groundc_z * t192);
   const Real rww00 = state.z[4] * state.z[5];
   const Real rww02 = state.z[3] * state.z[4];
-  const Real rdn0_x = rww00 * model.kdS00;
-  const Real rdn0_z = rww02 * model.kdS00;
-  const Real t228 = model.c6 * rdn0_x;
-  const Real t229 = model.c6 * rdn0_z;
-  const Real t241 = t38 * t229 - (t37 * t228 - (model.radius * (t196 * t211) - (state.z[3] * (t36 * (t169 -
-      t146 * (q0d2 + q0d2))) + (t146 * t155 + (q0d1 * t151 + q0d3 * t141 + q0d2 * t136)) * (t36 *
-      state.z[5]))) + model.c11);
-  const Real t246 = t109 * t241 - (grounds1bn0_z * t229 - (grounds1bn0_x * t228 + ((q0r1_x * state.z[3] +
-      (q0r1_z * state.z[5] - q0r1_y * state.z[4])) * t214 + t202 * (t36 * (t151 * (q0d3 + q0d3) + t169) + t52
-      * t211))));
-  const Real t256 = t131 * (t123 * t246 - (t116 * t241 + (grounds2bn0_z * t229 + (grounds2bn0_x * t228 - (t202
-      * (t36 * (t151 * t155 - q0d3 * t136 - (q0d2 * t141 - q0d1 * t146)) - t67 * t211) + (q0r0_z * state.z[5]
-      - (q0r0_x * state.z[3] - q0r0_y * state.z[4])) * t214)))));
-  const Real t258 = t122 * t246 - t123 * t256;
-  const Real t262 = t116 * t256 - (t108 * t241 - t109 * t258);
-  const Real t264 = t262 * Real(4.9999999999999995e-11);
-  const Real t270 = t258 * Real(1.5000000000000002e-10) + t109 * t264;
-  const Real t277 = t131 * (t123 * t270 - (t256 * Real(2.5e-10) + t116 * t264));
-  const Real t279 = t122 * t270 - t123 * t277;
-  const Real t284 = t116 * t277 + (t109 * t279 - (t262 + t108 * t264));
-  const Real t285 = t258 - t279;
-  const Real t286 = t256 - t277;
-  zdot[0] = t285 * model.c12;
-  zdot[1] = t286 * model.c12;
-  zdot[2] = -((t284 + model.q_2) * model.c12);
-  zdot[3] = model.c6 * (grounds2bn0_x * t286 + (grounds1bn0_x * t285 + (rdn0_x + t37 * t284)));
-  zdot[4] = model.c7 * (grounds1bn0_y * t285 + grounds2bn0_y * t286);
-  zdot[5] = -(model.c6 * (grounds2bn0_z * t286 - (grounds1bn0_z * t285 - (rdn0_z - t38 * t284))));
+  const Real rdn0_x = rww00 * model.rdS00;
+  const Real rdn0_z = rww02 * model.rdS00;
+  const Real t230 = model.c6 * rdn0_x;
+  const Real t231 = model.c6 * rdn0_z;
+  const Real t243 = state.z[5] * (t25 * (q0d3 * t141 - (q0d2 * t136 - (t146 * t156 - q0d1 * t151)))) + ((t164
+      - q0d2 * t169) * (t25 * state.z[3]) + (t179 * t214 + (t37 * t230 - t38 * t231))) - model.c12;
+  const Real t248 = (q0r1_y * state.z[4] - (q0r1_z * state.z[5] + q0r1_x * state.z[3])) * t217 - (t189 * (t25
+      * (t164 - t151 * (q0d3 + q0d3)) + q0r1_y * t214) - (grounds1bn0_x * t230 - (grounds1bn0_z * t231 + t109
+      * t243)));
+  const Real t258 = t131 * ((q0r0_x * state.z[3] - (q0r0_y * state.z[4] + q0r0_z * state.z[5])) * t217 - (t189
+      * (t25 * (q0d3 * t136 - t151 * t156 - (q0d2 * t141 - state.y[4] * t169)) - q0r0_y * t214) +
+      (grounds2bn0_x * t230 + (grounds2bn0_z * t231 - (t116 * t243 + t123 * t248)))));
+  const Real t260 = t122 * t248 + t123 * t258;
+  const Real t264 = t109 * t260 - (t108 * t243 + t116 * t258);
+  const Real t266 = t264 * Real(4.9999999999999995e-11);
+  const Real t272 = t260 * Real(1.5000000000000002e-10) + t109 * t266;
+  const Real t279 = t131 * (t116 * t266 - (t258 * Real(2.5e-10) + t123 * t272));
+  const Real t281 = t122 * t272 - t123 * t279;
+  const Real t286 = t108 * t266 + (t264 + (t109 * t281 + t116 * t279));
+  const Real t287 = t260 + t281;
+  const Real t288 = t258 - t279;
+  zdot[0] = -(t287 * model.c13);
+  zdot[1] = t288 * model.c13;
+  zdot[2] = (t286 - model.q_2) * model.c13;
+  zdot[3] = model.c6 * (t37 * t286 + (rdn0_x - (grounds1bn0_x * t287 - grounds2bn0_x * t288)));
+  zdot[4] = -(model.c7 * (grounds1bn0_y * t287 - grounds2bn0_y * t288));
+  zdot[5] = model.c6 * (t38 * t286 - (rdn0_z + (grounds1bn0_z * t287 + grounds2bn0_z * t288)));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -300,7 +302,7 @@ template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept {
   const Real Tfree = (state.z[4] * state.z[4] * model.Jy0 + (state.z[3] * state.z[3] + state.z[5] *
       state.z[5]) * model.S0b_zz) * Real(0.5) + (state.z[2] * state.z[2] + (state.z[0] * state.z[0] +
-      state.z[1] * state.z[1])) * model.c14;
+      state.z[1] * state.z[1])) * model.c15;
   return Tfree;
 }
 
@@ -315,7 +317,7 @@ void outputs(const Model<Real>& model, const State<Real>& state, const Input<Rea
     noexcept {
   const Real Tfree = (state.z[4] * state.z[4] * model.Jy0 + (state.z[3] * state.z[3] + state.z[5] *
       state.z[5]) * model.S0b_zz) * Real(0.5) + (state.z[2] * state.z[2] + (state.z[0] * state.z[0] +
-      state.z[1] * state.z[1])) * model.c14;
+      state.z[1] * state.z[1])) * model.c15;
   const Real V = state.y[2] * model.q_2;
   result.kinetic = Tfree;
   result.potential = V;
@@ -333,11 +335,11 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real groundup = detail::square_root(-t12);
   const Real g_ground = groundup * model.radius - state.y[2];
   const Real t20 = state.y[6] * Real(0.5);
+  const Real t24 = (q0r2_y + q0r2_y) / groundup * model.c16;
   const Real q0r2_x = Real(2.0) * (state.y[5] * state.y[3] - q0d1 * t20);
-  const Real t35 = (q0r2_y + q0r2_y) / groundup * model.c15;
-  const Real t36 = (state.y[5] * state.y[5] - (q0d3 * t20 + (state.y[3] * state.y[3] - state.y[4] *
-      state.y[4]))) * t35;
-  const Real t37 = q0r2_x * t35;
+  const Real t36 = t24 * (q0d3 * t20 - (state.y[5] * state.y[5] - (state.y[3] * state.y[3] - state.y[4] *
+      state.y[4])));
+  const Real t37 = t24 * q0r2_x;
   const Real q0d2 = Real(2.0) * state.y[5];
   const Real q011 = state.y[4] * q0d1;
   const Real q022 = state.y[5] * q0d2;
@@ -363,14 +365,14 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real grounds2bn0_x = groundc_z * q0r0_x - q0r2_x * groundc_x;
   const Real grounds2bn0_y = groundc_z * q0r0_y - q0r2_y * groundc_x;
   const Real grounds2bn0_z = groundc_z * q0r0_z + q0r2_z * groundc_x;
-  const Real t84 = grounds1bn0_x * model.c16;
-  const Real t85 = grounds1bn0_z * model.c16;
-  const Real t88 = t36 * t84 - t37 * t85;
-  const Real t94 = grounds2bn0_x * model.c16;
+  const Real t84 = grounds1bn0_x * model.c17;
+  const Real t85 = grounds1bn0_z * model.c17;
+  const Real t88 = t36 * t84 + t37 * t85;
+  const Real t94 = grounds2bn0_x * model.c17;
   const Real t95 = grounds2bn0_y * model.c7;
-  const Real t96 = grounds2bn0_z * model.c16;
-  const Real t99 = t36 * t94 + t37 * t96;
-  const Real t110 = Real(1.0) / (model.c16 * (t36 * t36 + t37 * t37) + model.c8);
+  const Real t96 = grounds2bn0_z * model.c17;
+  const Real t99 = t36 * t94 - t37 * t96;
+  const Real t110 = Real(1.0) / (model.c17 * (t36 * t36 + t37 * t37) + model.c8);
   const Real t111 = t88 * t110;
   const Real t118 = t99 * t110;
   const Real t122 = grounds1bn0_y * t95 + (grounds1bn0_x * t94 - (grounds1bn0_z * t96 + t88 * t118));
@@ -383,19 +385,19 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real t140 = t133 * (g_ground * t118 - t125 * t134);
   const Real t142 = t124 * t134 - t125 * t140;
   const Real t146 = t111 * t142 + (g_ground * t110 + t118 * t140);
-  const Real t161 = t142 * model.c12;
-  const Real t162 = t140 * model.c12;
-  const Real t163 = t146 * model.c12;
-  const Real t164 = model.c16 * (grounds1bn0_x * t142 - (t36 * t146 - grounds2bn0_x * t140));
+  const Real t161 = t142 * model.c13;
+  const Real t162 = t140 * model.c13;
+  const Real t163 = t146 * model.c13;
+  const Real t164 = model.c17 * (grounds1bn0_x * t142 - (t36 * t146 - grounds2bn0_x * t140));
   const Real t165 = model.c7 * (grounds1bn0_y * t142 + grounds2bn0_y * t140);
-  const Real t166 = model.c16 * (grounds1bn0_z * t142 + (t37 * t146 - grounds2bn0_z * t140));
+  const Real t166 = model.c17 * (grounds1bn0_z * t142 - (t37 * t146 + grounds2bn0_z * t140));
   const Real t172 = Real(0.5) * t164;
   const Real t173 = Real(0.5) * t165;
   const Real t174 = Real(0.5) * t166;
-  const Real t181 = state.y[3] * t172 + (state.y[4] + (state.y[5] * t174 + state.y[6] * t173));
-  const Real t188 = state.y[3] * t173 - (state.y[5] + (state.y[6] * t172 - state.y[4] * t174));
-  const Real t192 = state.y[4] * t172 - (state.y[3] + (state.y[5] * t173 - state.y[6] * t174));
-  const Real t198 = state.y[3] * t174 + (state.y[6] - (state.y[4] * t173 + state.y[5] * t172));
+  const Real t181 = state.y[3] * t172 - (state.y[4] - (state.y[5] * t174 + state.y[6] * t173));
+  const Real t188 = state.y[3] * t173 + (state.y[5] - (state.y[6] * t172 - state.y[4] * t174));
+  const Real t192 = state.y[4] * t172 + (state.y[3] - (state.y[5] * t173 - state.y[6] * t174));
+  const Real t198 = state.y[3] * t174 - (state.y[6] + (state.y[4] * t173 + state.y[5] * t172));
   const Real t207 = Real(1.0) / detail::square_root(t181 * t181 + (t192 * t192 + (t188 * t188 + t198 *
       t198)));
   const Real t208 = t192 * t207;
@@ -410,9 +412,9 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real t218 = Real(1.0) - q0r2_y_2 * q0r2_y_2;
   const Real groundup_2 = detail::square_root(t218);
   const Real t220 = Real(0.5) * t211;
-  const Real t231 = t208 * t210 - q0d1_2 * t220;
-  const Real q0r2_x_2 = t231 + t231;
-  const Real t234 = model.c15 * ((q0r2_y_2 + q0r2_y_2) / groundup_2);
+  const Real t223 = model.c16 * ((q0r2_y_2 + q0r2_y_2) / groundup_2);
+  const Real t233 = t208 * t210 - q0d1_2 * t220;
+  const Real q0r2_x_2 = t233 + t233;
   const Real q0d2_2 = Real(2.0) * t210;
   const Real q011_2 = t209 * q0d1_2;
   const Real q022_2 = t210 * q0d2_2;
@@ -438,27 +440,27 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real grounds2bn0_x_2 = groundc_z_2 * q0r0_x_2 + q0r2_x_2 * groundc_x_2;
   const Real grounds2bn0_y_2 = groundc_z_2 * q0r0_y_2 + q0r2_y_2 * groundc_x_2;
   const Real grounds2bn0_z_2 = groundc_z_2 * q0r0_z_2 - q0r2_z_2 * groundc_x_2;
-  const Real t289 = (t210 * t210 - (q0d3_2 * t220 + (t208 * t208 - t209 * t209))) * t234 * state.z[3] +
-      (state.z[2] - q0r2_x_2 * t234 * state.z[5]);
+  const Real t289 = t223 * (q0d3_2 * t220 - (t210 * t210 - (t208 * t208 - t209 * t209))) * state.z[3] -
+      (state.z[2] - t223 * q0r2_x_2 * state.z[5]);
   const Real t300 = grounds1bn0_x_2 * state.z[3] + (state.z[0] + (grounds1bn0_y_2 * state.z[4] +
       (grounds1bn0_z_2 * state.z[5] + t111 * t289)));
   const Real t310 = t133 * (grounds2bn0_x_2 * state.z[3] - (state.z[1] - (grounds2bn0_y_2 * state.z[4] -
       (grounds2bn0_z_2 * state.z[5] + (t118 * t289 - t125 * t300)))));
   const Real t312 = t124 * t300 + t125 * t310;
   const Real t316 = t111 * t312 + (t110 * t289 - t118 * t310);
-  closed.y[0] = t161 + state.y[0];
-  closed.y[1] = t162 + state.y[1];
+  closed.y[0] = -(t161 - state.y[0]);
+  closed.y[1] = -(t162 - state.y[1]);
   closed.y[2] = state.y[2] + t163;
-  closed.y[3] = -t208;
-  closed.y[4] = t209;
-  closed.y[5] = -t210;
-  closed.y[6] = t211;
-  closed.z[0] = state.z[0] - model.c12 * t312;
-  closed.z[1] = state.z[1] + model.c12 * t310;
-  closed.z[2] = state.z[2] - model.c12 * t316;
-  closed.z[3] = state.z[3] - model.c16 * (grounds1bn0_x * t312 - (t36 * t316 + grounds2bn0_x * t310));
+  closed.y[3] = t208;
+  closed.y[4] = -t209;
+  closed.y[5] = t210;
+  closed.y[6] = -t211;
+  closed.z[0] = state.z[0] - model.c13 * t312;
+  closed.z[1] = state.z[1] + model.c13 * t310;
+  closed.z[2] = state.z[2] + model.c13 * t316;
+  closed.z[3] = state.z[3] - model.c17 * (grounds1bn0_x * t312 - (t36 * t316 + grounds2bn0_x * t310));
   closed.z[4] = state.z[4] + model.c7 * (grounds1bn0_y * t312 - grounds2bn0_y * t310);
-  closed.z[5] = state.z[5] - model.c16 * (grounds1bn0_z * t312 + (t37 * t316 + grounds2bn0_z * t310));
+  closed.z[5] = state.z[5] - model.c17 * (grounds1bn0_z * t312 - (t37 * t316 - grounds2bn0_z * t310));
   closed.regularity = Real(1.0) / (t133 * (t110 * t124)) * Real(0.5333333333333331);
   closed.opening = t162 * t162 + (t161 * t161 + (t163 * t163 + (t164 * t164 + (t165 * t165 + t166 * t166))));
   state = closed;
@@ -476,8 +478,8 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real groundup = detail::square_root(-t12);
   const Real g_ground = groundup * model.radius - state.y[2];
   const Real t20 = state.y[4] * Real(0.5);
-  const Real q0r2_x = Real(2.0) * (q0d3 * t20 - state.y[5] * state.y[3]);
-  const Real t35 = (q0r2_y + q0r2_y) / groundup * model.c15;
+  const Real t24 = (q0r2_y + q0r2_y) / groundup * model.c16;
+  const Real q0r2_x = Real(2.0) * (state.y[5] * state.y[3] - q0d3 * t20);
   const Real q0d2 = Real(2.0) * state.y[5];
   const Real q011 = state.y[4] * q0d1;
   const Real q022 = state.y[5] * q0d2;
@@ -493,14 +495,14 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real q0r2_z = q022 - t47;
   const Real groundc_y = model.radius * (q0r2_y * q0r1_y / groundup);
   const Real groundc_z = model.radius * (t12 / groundup);
-  const Real grounds1bn0_x = q0r1_x * groundc_z + q0r2_x * groundc_y;
+  const Real grounds1bn0_x = q0r1_x * groundc_z - q0r2_x * groundc_y;
   const Real grounds1bn0_y = q0r1_y * groundc_z - q0r2_y * groundc_y;
   const Real grounds1bn0_z = q0r1_z * groundc_z - q0r2_z * groundc_y;
   const Real q0r0_x = q022 - (Real(1.0) - q033);
   const Real q0r0_y = q012 - q003;
   const Real q0r0_z = q013 + q002;
   const Real groundc_x = model.radius * (q0r2_y * q0r0_y / groundup);
-  const Real grounds2bn0_x = groundc_z * q0r0_x + q0r2_x * groundc_x;
+  const Real grounds2bn0_x = groundc_z * q0r0_x - q0r2_x * groundc_x;
   const Real grounds2bn0_y = groundc_z * q0r0_y - q0r2_y * groundc_x;
   const Real grounds2bn0_z = groundc_z * q0r0_z + q0r2_z * groundc_x;
   const Real grounds0 = grounds1bn0_z * state.z[5] - (grounds1bn0_y * state.z[4] - (state.z[0] + grounds1bn0_x
@@ -510,8 +512,8 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   g[0] = -g_ground;
   g[1] = Real(0.0);
   g[2] = Real(0.0);
-  g_rate[0] = -(q0r2_x * t35 * state.z[5] - (state.z[2] - (q0d1 * t20 - (state.y[3] * state.y[3] + (state.y[6]
-      * state.y[6] - state.y[5] * state.y[5]))) * t35 * state.z[3]));
+  g_rate[0] = t24 * q0r2_x * state.z[5] + (state.z[2] - t24 * (q0d1 * t20 - (state.y[3] * state.y[3] -
+      (state.y[5] * state.y[5] - state.y[6] * state.y[6]))) * state.z[3]);
   g_rate[1] = grounds0;
   g_rate[2] = -grounds1;
 }
@@ -533,11 +535,11 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t20 = q0r2_y + q0r2_y;
   const Real t21 = Real(1.0) / groundup;
   const Real t22 = Real(0.5) * t21;
-  const Real q0r2_x = Real(2.0) * (q0d3 * t17 - state.y[5] * state.y[3]);
-  const Real t34 = t20 * t22;
-  const Real t36 = t34 * model.radius;
-  const Real t37 = (q0d1 * t17 - (state.y[3] * state.y[3] + (q0d3 * t19 - state.y[5] * state.y[5]))) * t36;
-  const Real t38 = q0r2_x * t36;
+  const Real t24 = t22 * model.radius;
+  const Real t25 = t20 * t24;
+  const Real q0r2_x = Real(2.0) * (state.y[5] * state.y[3] - q0d1 * t19);
+  const Real t37 = t25 * (q0d3 * t19 - (state.y[5] * state.y[5] - (state.y[3] * state.y[3] - q0d1 * t17)));
+  const Real t38 = t25 * q0r2_x;
   const Real q0d2 = Real(2.0) * state.y[5];
   const Real q011 = state.y[4] * q0d1;
   const Real q022 = state.y[5] * q0d2;
@@ -551,19 +553,17 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real q0r1_y = q033 - t48;
   const Real q0r1_z = q023 - q001;
   const Real q0r2_z = q022 - t48;
-  const Real t52 = model.radius * q0r1_y;
-  const Real groundc_y = t34 * t52;
+  const Real groundc_y = t25 * q0r1_y;
   const Real groundc_z = model.radius * (t12 / groundup);
-  const Real grounds1bn0_x = q0r1_x * groundc_z + q0r2_x * groundc_y;
-  const Real grounds1bn0_y = t21 * t52;
+  const Real grounds1bn0_x = q0r1_x * groundc_z - q0r2_x * groundc_y;
+  const Real grounds1bn0_y = model.radius * (t21 * q0r1_y);
   const Real grounds1bn0_z = q0r1_z * groundc_z - q0r2_z * groundc_y;
-  const Real q0r0_x = q022 - (Real(1.0) - q033);
+  const Real q0r0_x = q033 - (Real(1.0) - q022);
   const Real q0r0_y = q012 - q003;
   const Real q0r0_z = q013 + q002;
-  const Real t67 = model.radius * q0r0_y;
-  const Real groundc_x = t34 * t67;
-  const Real grounds2bn0_x = groundc_z * q0r0_x + q0r2_x * groundc_x;
-  const Real grounds2bn0_y = t21 * t67;
+  const Real groundc_x = t25 * q0r0_y;
+  const Real grounds2bn0_x = groundc_z * q0r0_x - q0r2_x * groundc_x;
+  const Real grounds2bn0_y = model.radius * (t21 * q0r0_y);
   const Real grounds2bn0_z = groundc_z * q0r0_z + q0r2_z * groundc_x;
   const Real t82 = grounds1bn0_x * model.c6;
   const Real t83 = grounds1bn0_z * model.c6;
@@ -575,44 +575,45 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t108 = Real(1.0) / (model.c6 * (t37 * t37 + t38 * t38) + model.c8);
   const Real t109 = t86 * t108;
   const Real t116 = t97 * t108;
-  const Real t120 = t86 * t116 + (grounds1bn0_z * t94 - (grounds1bn0_x * t92 + grounds1bn0_y * t93));
-  const Real t122 = Real(1.0) / (t86 * t109 - (grounds1bn0_z * t83 + (grounds1bn0_x * t82 + grounds1bn0_y *
-      grounds1bn0_y * model.c7)) - model.c9);
+  const Real t120 = grounds1bn0_y * t93 + (grounds1bn0_x * t92 - (grounds1bn0_z * t94 + t86 * t116));
+  const Real t122 = Real(1.0) / (grounds1bn0_x * t82 + (grounds1bn0_y * grounds1bn0_y * model.c7 +
+      (grounds1bn0_z * t83 - t86 * t109)) + model.c9);
   const Real t123 = t120 * t122;
-  const Real t131 = Real(1.0) / (t120 * t123 - (t97 * t116 - (grounds2bn0_z * t94 + (grounds2bn0_x * t92 +
-      grounds2bn0_y * t93))) + model.c10);
-  const Real t136 = t19 * state.z[5] + (t17 * state.z[3] + t18 * state.z[4]);
-  const Real t141 = t18 * state.z[5] + (t16 * state.z[3] - t19 * state.z[4]);
-  const Real t146 = t17 * state.z[5] - (t19 * state.z[3] + t16 * state.z[4]);
-  const Real t151 = t16 * state.z[5] - (t18 * state.z[3] - t17 * state.z[4]);
-  const Real t155 = Real(2.0) * state.y[3];
-  const Real t169 = t141 * (q0d1 + q0d1);
-  const Real t196 = t141 * t155 - q0d1 * t136 + (q0d2 * t151 - q0d3 * t146);
-  const Real t202 = q0r2_x * state.z[3] - (q0r2_z * state.z[5] - q0r2_y * state.z[4]);
-  const Real t211 = (t21 + t20 * (t34 * (t21 * t22))) * t196;
-  const Real t214 = (t36 + t36 + t34 * (t21 * groundc_z)) * t196;
+  const Real t131 = Real(1.0) / (grounds2bn0_x * t92 + (grounds2bn0_y * t93 + (grounds2bn0_z * t94 - (t97 *
+      t116 + t120 * t123))) + model.c10);
+  const Real t136 = t18 * state.z[4] + (t17 * state.z[3] + t19 * state.z[5]);
+  const Real t141 = t19 * state.z[4] - (t16 * state.z[3] + t18 * state.z[5]);
+  const Real t146 = t16 * state.z[4] + (t19 * state.z[3] - t17 * state.z[5]);
+  const Real t151 = t17 * state.z[4] - (t18 * state.z[3] - t16 * state.z[5]);
+  const Real t156 = Real(2.0) * state.y[3];
+  const Real t164 = t141 * (q0d1 + q0d1);
+  const Real t169 = Real(2.0) * t146;
+  const Real t179 = q0d1 * t136 + t141 * t156 - (q0d3 * t146 + q0d2 * t151);
+  const Real t189 = q0r2_y * state.z[4] - (q0r2_z * state.z[5] + q0r2_x * state.z[3]);
+  const Real t192 = q0r2_y * t21;
+  const Real t214 = t179 * (model.radius * (t20 * (t21 * t22 * t192)) + Real(2.0) * t24);
+  const Real t217 = t179 * (t25 + t25 + t21 * groundc_z * t192);
   const Real rww00 = state.z[4] * state.z[5];
   const Real rww02 = state.z[3] * state.z[4];
-  const Real t226 = rww00 * model.c17;
-  const Real t227 = rww02 * model.c17;
-  const Real t239 = t38 * t227 - (t37 * t226 - (model.radius * (t196 * t211) - (state.z[3] * (t36 * (t169 -
-      t146 * (q0d2 + q0d2))) + (t146 * t155 + (q0d1 * t151 + q0d3 * t141 + q0d2 * t136)) * (t36 *
-      state.z[5]))) + model.c11);
-  const Real t244 = t109 * t239 - (grounds1bn0_z * t227 - (grounds1bn0_x * t226 + ((q0r1_x * state.z[3] +
-      (q0r1_z * state.z[5] - q0r1_y * state.z[4])) * t214 + t202 * (t36 * (t151 * (q0d3 + q0d3) + t169) + t52
-      * t211))));
-  const Real t254 = t131 * (t123 * t244 - (t116 * t239 + (grounds2bn0_z * t227 + (grounds2bn0_x * t226 - (t202
-      * (t36 * (t151 * t155 - q0d3 * t136 - (q0d2 * t141 - q0d1 * t146)) - t67 * t211) + (q0r0_z * state.z[5]
-      - (q0r0_x * state.z[3] - q0r0_y * state.z[4])) * t214)))));
-  const Real t256 = t122 * t244 - t123 * t254;
-  const Real t260 = t116 * t254 - (t108 * t239 - t109 * t256);
-  const Real t262 = t260 * Real(4.9999999999999995e-11);
-  const Real t268 = t256 * Real(1.5000000000000002e-10) + t109 * t262;
-  const Real t275 = t131 * (t123 * t268 - (t254 * Real(2.5e-10) + t116 * t262));
-  const Real t277 = t122 * t268 - t123 * t275;
-  lambda[0] = t116 * t275 + (t109 * t277 - (t260 + t108 * t262));
-  lambda[1] = -(t256 - t277);
-  lambda[2] = -(t254 - t275);
+  const Real t228 = rww00 * model.c18;
+  const Real t229 = rww02 * model.c18;
+  const Real t241 = state.z[5] * (t25 * (q0d3 * t141 - (q0d2 * t136 - (t146 * t156 - q0d1 * t151)))) + ((t164
+      - q0d2 * t169) * (t25 * state.z[3]) + (t179 * t214 + (t37 * t228 - t38 * t229))) - model.c12;
+  const Real t246 = (q0r1_y * state.z[4] - (q0r1_z * state.z[5] + q0r1_x * state.z[3])) * t217 - (t189 * (t25
+      * (t164 - t151 * (q0d3 + q0d3)) + q0r1_y * t214) - (grounds1bn0_x * t228 - (grounds1bn0_z * t229 + t109
+      * t241)));
+  const Real t256 = t131 * ((q0r0_x * state.z[3] - (q0r0_y * state.z[4] + q0r0_z * state.z[5])) * t217 - (t189
+      * (t25 * (q0d3 * t136 - t151 * t156 - (q0d2 * t141 - state.y[4] * t169)) - q0r0_y * t214) +
+      (grounds2bn0_x * t228 + (grounds2bn0_z * t229 - (t116 * t241 + t123 * t246)))));
+  const Real t258 = t122 * t246 + t123 * t256;
+  const Real t262 = t109 * t258 - (t108 * t241 + t116 * t256);
+  const Real t264 = t262 * Real(4.9999999999999995e-11);
+  const Real t270 = t258 * Real(1.5000000000000002e-10) + t109 * t264;
+  const Real t277 = t131 * (t116 * t264 - (t256 * Real(2.5e-10) + t123 * t270));
+  const Real t279 = t122 * t270 - t123 * t277;
+  lambda[0] = -(t108 * t264 + (t262 + (t109 * t279 + t116 * t277)));
+  lambda[1] = t258 + t279;
+  lambda[2] = -(t256 - t277);
 }
 
 template <class Real> JOURDAIN_FUNCTION

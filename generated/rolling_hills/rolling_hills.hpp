@@ -32,7 +32,7 @@
 //   linearly_implicit_euler_step, ros34pw2_step, rosw43_step, rodas4_step
 // Checked before this file was written
 // - validated at 8 states: in 77 digits everything below agrees to 1e-40 of its scale (what rounding can move
-//   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 8.1e-16 of the
+//   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 7.0e-16 of the
 //   sum of absolute terms, other errors are 1.2e-15 of their scale; cond(M) up to 4.5e+01
 // - 2 kinks of abs, min, max, floor and if, 0 compared on both sides, the nearest 1e+00 of its scale away
 // - the symbolic equations (M, k_bar, q_bar, Z z, energies, outputs): the numeric reference
@@ -131,13 +131,12 @@ struct Model {
   Real c11;
   Real c12;
   Real c13;
-  Real rdS00;
+  Real c14;
   Real c15;
   Real S0b_zz_2;
   Real c17;
   Real c18;
   Real c19;
-  Real c20;
 };
 
 // Names in order, closed by a null pointer.
@@ -199,7 +198,7 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
 /// The loops add their forces: M zdot = k_bar - q_bar - G^T lambda, see constraint_forces.
-/// 1060 operations (650 mul, 388 add and sub, 15 div), 20 sin and cos.
+/// 1020 operations (632 mul, 366 add and sub, 15 div), 20 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[6]) noexcept;
@@ -230,27 +229,27 @@ void outputs(const Model<Real>& model, const State<Real>& state, const Input<Rea
 
 /// Moves positions and velocities to the nearest ones that the loops allow, to first order.
 /// Call it after changing a state, several times where that was far; steps end with it.
-/// 1259 operations (777 mul, 440 add and sub, 27 div), 40 sin and cos, 2 selections.
+/// 1248 operations (772 mul, 434 add and sub, 27 div), 40 sin and cos, 2 selections.
 template <class Real> JOURDAIN_FUNCTION
 void project(const Model<Real>& model, State<Real>& state) noexcept;
 
 /// How far the loops are open: g(y, t), zero where they are closed, in m (rows without a length: without unit),
 /// and its rate G z + g_t. Rows as in constraint_names.
-/// 518 operations (320 mul, 180 add and sub, 11 div), 20 sin and cos.
+/// 516 operations (319 mul, 179 add and sub, 11 div), 20 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void constraint_residual(const Model<Real>& model, const State<Real>& state, Real (&g)[3], Real (&g_rate)[3])
     noexcept;
 
 /// Multipliers lambda of M zdot = k_bar - q_bar - G^T lambda over all coordinates of the tree; the force of the
 /// constraints is -G^T lambda. N; N m for rows without a length.
-/// 1021 operations (624 mul, 375 add and sub, 15 div), 20 sin and cos.
+/// 981 operations (606 mul, 353 add and sub, 15 div), 20 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void constraint_forces(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&lambda)[3]) noexcept;
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 5767 operations.
+/// 5596 operations.
 template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;
 

@@ -286,18 +286,15 @@ Model<Real>::Model(const Parameters& parameters) noexcept {
   c6 = wave * hill;
   c9 = wave * wave;
   c7 = hill * c9;
-  const Real disc_S_yy_2 = t9 + (t9 - disc_S_xx);
-  const Real S0b_zz_3 = disc_S_xx + disc_S_yy_2;
-  c11 = Real(1.0) / S0b_zz_3;
+  S0b_zz_2 = disc_S_xx - disc_S_yy;
+  c11 = Real(1.0) / S0b_zz_2;
   c12 = Real(1.0) / Jy0;
   c13 = Real(1.0) / mass;
-  rdS00 = disc_S_xx - disc_S_yy_2;
   c15 = q_2 * c13;
-  S0b_zz_2 = disc_S_xx - disc_S_yy;
   c17 = Real(0.5) * mass;
-  c18 = Real(0.5) * radius;
-  c19 = Real(1.0) / S0b_zz;
-  c20 = c11 * rdS00;
+  c14 = Real(0.5) * radius;
+  c18 = Real(1.0) / S0b_zz;
+  c19 = kdS00 * c11;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -600,7 +597,8 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real groundggu = expression_67 * groundgge_y + (groundgge_z - expression_64 * groundgge_x);
   const Real groundggr = detail::square_root(groundggu);
   const Real groundgo = Real(1.0) + expression_67 * expression_67;
-  const Real groundgo_2 = groundgo + expression_64 * expression_64;
+  const Real t382 = expression_64 * expression_64;
+  const Real groundgo_2 = groundgo + t382;
   const Real groundgo_3 = Real(1.0) / detail::square_root(groundgo_2);
   const Real t387 = state.y[3] * Real(0.5);
   const Real t388 = state.y[4] * Real(0.5);
@@ -611,30 +609,30 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t393 = q0r2_y + q0r2_y;
   const Real groundggi = Real(1.0) / groundggr;
   const Real t395 = Real(0.5) * groundggi;
-  const Real t396 = q0d3 + q0d3;
-  const Real t397 = Real(2.0) * state.y[3];
-  const Real t398 = expression_64 * t391;
-  const Real t400 = expression_64 + expression_64;
-  const Real t401 = expression_64 * expression_67;
-  const Real t403 = model.radius * t395;
-  const Real t404 = groundgo_3 * t403;
-  const Real t407 = t401 + t401;
-  const Real t408 = expression_67 + expression_67;
-  const Real t409 = q0r1_y * t408;
-  const Real t410 = t393 - t409;
-  const Real t411 = t398 - t410;
-  const Real t414 = q0r1_y * t407 + (expression_64 * t398 - q0r2_y * t400);
-  const Real t415 = expression_67 * t411;
-  const Real t416 = t404 * t415;
-  const Real t417 = t404 * t414;
-  const Real t418 = t404 * t411;
-  const Real t419 = q0d1 + q0d1;
-  const Real t427 = q0d1 * t417 - q0d3 * t418;
-  const Real t430 = q0d2 * t418 + (t397 * t417 - t396 * t416);
-  const Real t433 = t397 * t418 - (q0d2 * t417 + t416 * t419);
-  const Real t435 = q0d3 * t417 + q0d1 * t418;
-  const Real t445 = t388 * t435 + (t389 * t430 - (t387 * t433 - t390 * t427));
-  const Real t449 = t390 * t435 - (t387 * t430 + (t389 * t433 + t388 * t427));
+  const Real t396 = model.radius * t395;
+  const Real t397 = groundgo_3 * t396;
+  const Real t400 = q0d3 + q0d3;
+  const Real t401 = Real(2.0) * state.y[3];
+  const Real t402 = expression_64 * expression_67;
+  const Real t404 = expression_67 + expression_67;
+  const Real t406 = q0r1_y * t404;
+  const Real t407 = t402 + t402;
+  const Real t411 = q0r0_y * t407 - (q0r2_y * t404 - expression_67 * t406);
+  const Real t413 = expression_64 + expression_64;
+  const Real t416 = q0r2_y * t413 - (t382 * t391 + q0r1_y * t407);
+  const Real t417 = q0r0_y * t413;
+  const Real t418 = t393 - t406;
+  const Real t419 = t417 - t418;
+  const Real t420 = t397 * t411;
+  const Real t421 = t397 * t416;
+  const Real t422 = t397 * t419;
+  const Real t423 = q0d1 + q0d1;
+  const Real t430 = q0d3 * t422 + q0d1 * t421;
+  const Real t435 = q0d1 * t422 - q0d3 * t421;
+  const Real t440 = t420 * t423 - (t401 * t422 + q0d2 * t421);
+  const Real t445 = t400 * t420 - (q0d2 * t422 - t401 * t421);
+  const Real t449 = t389 * t445 - (t387 * t440 - (t390 * t430 - t388 * t435));
+  const Real t453 = t387 * t445 + (t389 * t440 + (t388 * t430 + t390 * t435));
   const Real q022 = state.y[5] * q0d2;
   const Real q013 = state.y[4] * q0d3;
   const Real q002 = q0d2 * state.y[3];
@@ -650,49 +648,49 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real groundgo_4 = Real(1.0) / detail::square_root(groundgo);
   const Real groundgo_5 = groundgo_3 * groundgo_4;
   const Real groundgy_x = groundgo * groundgo_5;
-  const Real groundgy_y = t401 * groundgo_5;
+  const Real groundgy_y = t402 * groundgo_5;
   const Real groundgy_z = expression_64 * groundgo_5;
   const Real groundgv_x = model.radius * groundggq_x;
   const Real groundgv_y = model.radius * groundggq_y;
   const Real groundgv_z = model.radius * groundggq_z;
-  const Real t474 = groundgy_x * groundgv_y - groundgy_y * groundgv_x;
-  const Real t478 = groundgy_x * groundgv_z - groundgy_z * groundgv_x;
-  const Real t482 = groundgy_y * groundgv_z - groundgy_z * groundgv_y;
-  const Real grounds1bn0_x = q0r0_x * t482 - (q0r2_x * t474 - q0r1_x * t478);
-  const Real grounds1bn0_y = q0r0_y * t482 + (q0r2_y * t474 + q0r1_y * t478);
-  const Real grounds1bn0_z = q0r0_z * t482 - (q0r2_z * t474 + q0r1_z * t478);
+  const Real t478 = groundgy_x * groundgv_y - groundgy_y * groundgv_x;
+  const Real t482 = groundgy_x * groundgv_z - groundgy_z * groundgv_x;
+  const Real t486 = groundgy_y * groundgv_z - groundgy_z * groundgv_y;
+  const Real grounds1bn0_x = q0r0_x * t486 - (q0r2_x * t478 - q0r1_x * t482);
+  const Real grounds1bn0_y = q0r0_y * t486 + (q0r2_y * t478 + q0r1_y * t482);
+  const Real grounds1bn0_z = q0r0_z * t486 - (q0r2_z * t478 + q0r1_z * t482);
   const Real groundgz_z = expression_67 * groundgo_4;
-  const Real t499 = groundgo_4 * groundgv_z + groundgv_y * groundgz_z;
-  const Real t503 = q0r1_x * groundgz_z + q0r2_x * groundgo_4;
-  const Real grounds2bn0_x = q0r0_x * t499 + groundgv_x * t503;
-  const Real t509 = q0r1_y * groundgz_z - q0r2_y * groundgo_4;
-  const Real grounds2bn0_y = q0r0_y * t499 + groundgv_x * t509;
-  const Real t515 = q0r1_z * groundgz_z - q0r2_z * groundgo_4;
-  const Real grounds2bn0_z = q0r0_z * t499 - groundgv_x * t515;
-  const Real t524 = groundgo_3 * groundgo_3;
-  const Real t528 = grounds1bn0_x * model.c11;
-  const Real t529 = grounds1bn0_z * model.c11;
-  const Real t532 = t445 * t528 - t449 * t529;
-  const Real t541 = grounds2bn0_x * model.c11;
-  const Real t542 = grounds2bn0_y * model.c12;
-  const Real t543 = grounds2bn0_z * model.c11;
-  const Real t546 = t445 * t541 - t449 * t543;
-  const Real t550 = groundgo_4 * groundgo_4;
-  const Real t562 = Real(1.0) / (groundgo_2 * t524 * model.c13 + model.c11 * (t445 * t445 + t449 * t449) +
+  const Real t503 = groundgo_4 * groundgv_z + groundgv_y * groundgz_z;
+  const Real t507 = q0r1_x * groundgz_z + q0r2_x * groundgo_4;
+  const Real grounds2bn0_x = q0r0_x * t503 + groundgv_x * t507;
+  const Real t513 = q0r1_y * groundgz_z - q0r2_y * groundgo_4;
+  const Real grounds2bn0_y = q0r0_y * t503 + groundgv_x * t513;
+  const Real t519 = q0r1_z * groundgz_z - q0r2_z * groundgo_4;
+  const Real grounds2bn0_z = q0r0_z * t503 - groundgv_x * t519;
+  const Real t528 = groundgo_3 * groundgo_3;
+  const Real t532 = grounds1bn0_x * model.c11;
+  const Real t533 = grounds1bn0_z * model.c11;
+  const Real t536 = t449 * t532 + t453 * t533;
+  const Real t545 = grounds2bn0_x * model.c11;
+  const Real t546 = grounds2bn0_y * model.c12;
+  const Real t547 = grounds2bn0_z * model.c11;
+  const Real t550 = t449 * t545 + t453 * t547;
+  const Real t554 = groundgo_4 * groundgo_4;
+  const Real t566 = Real(1.0) / (groundgo_2 * t528 * model.c13 + model.c11 * (t449 * t449 + t453 * t453) +
       Real(4.9999999999999995e-11));
-  const Real t563 = t532 * t562;
-  const Real t574 = t546 * t562;
-  const Real t578 = t532 * t574 - (grounds1bn0_z * t543 + (grounds1bn0_x * t541 + grounds1bn0_y * t542));
-  const Real t580 = Real(1.0) / (model.c13 * (groundgy_z * groundgy_z + (groundgy_x * groundgy_x + groundgy_y
-      * groundgy_y)) - (t532 * t563 - (grounds1bn0_z * t529 + (grounds1bn0_x * t528 + grounds1bn0_y *
+  const Real t567 = t536 * t566;
+  const Real t578 = t550 * t566;
+  const Real t582 = t536 * t578 - (grounds1bn0_z * t547 + (grounds1bn0_x * t545 + grounds1bn0_y * t546));
+  const Real t584 = Real(1.0) / (model.c13 * (groundgy_z * groundgy_z + (groundgy_x * groundgy_x + groundgy_y
+      * groundgy_y)) - (t536 * t567 - (grounds1bn0_z * t533 + (grounds1bn0_x * t532 + grounds1bn0_y *
       grounds1bn0_y * model.c12)) - Real(1.5000000000000002e-10)));
-  const Real t581 = t578 * t580;
-  const Real t592 = Real(1.0) / (t578 * t581 + (t546 * t574 - (grounds2bn0_z * t543 + (grounds2bn0_y * t542 +
-      (grounds2bn0_x * t541 + model.c13 * (groundgo * t550))))) - Real(2.5e-10));
-  const Real t597 = t390 * state.z[5] + (t388 * state.z[3] + t389 * state.z[4]);
-  const Real t602 = t389 * state.z[5] + (t387 * state.z[3] - t390 * state.z[4]);
-  const Real t607 = t388 * state.z[5] - (t390 * state.z[3] + t387 * state.z[4]);
-  const Real t612 = t387 * state.z[5] - (t389 * state.z[3] - t388 * state.z[4]);
+  const Real t585 = t582 * t584;
+  const Real t596 = Real(1.0) / (t582 * t585 + (t550 * t578 - (grounds2bn0_z * t547 + (grounds2bn0_y * t546 +
+      (grounds2bn0_x * t545 + model.c13 * (groundgo * t554))))) - Real(2.5e-10));
+  const Real t601 = t390 * state.z[5] + (t388 * state.z[3] + t389 * state.z[4]);
+  const Real t606 = t389 * state.z[5] + (t387 * state.z[3] - t390 * state.z[4]);
+  const Real t611 = t388 * state.z[5] - (t390 * state.z[3] + t387 * state.z[4]);
+  const Real t616 = t387 * state.z[5] - (t389 * state.z[3] - t388 * state.z[4]);
   const Real expression_68 = model.c7 * (expression_58 * expression_61);
   const Real expression_69 = expression_63 * expression_66;
   const Real expression_70 = model.c9 * (expression_59 * expression_61);
@@ -700,14 +698,14 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real groundggp = groundgs_xx - groundggq_x * groundggq_x;
   const Real groundggp_2 = groundgs_xy - groundggq_x * groundggq_y;
   const Real groundggp_3 = groundgs_yy - groundggq_y * groundggq_y;
-  const Real t626 = expression_69 * groundggp_2;
-  const Real groundggk = expression_68 * groundggp + t626;
+  const Real t630 = expression_69 * groundggp_2;
+  const Real groundggk = expression_68 * groundggp + t630;
   const Real groundggj = Real(1.0) + groundggl * groundggk;
   const Real groundggk_2 = expression_69 * groundggp + expression_70 * groundggp_2;
   const Real groundggj_2 = groundggl * groundggk_2;
   const Real groundggk_3 = expression_68 * groundggp_2 + expression_69 * groundggp_3;
   const Real groundggj_3 = groundggl * groundggk_3;
-  const Real groundggk_4 = t626 + expression_70 * groundggp_3;
+  const Real groundggk_4 = t630 + expression_70 * groundggp_3;
   const Real groundggj_4 = Real(1.0) + groundggl * groundggk_4;
   const Real groundggt = groundggj * groundggj_4 - groundggj_2 * groundggj_3;
   const Real groundggd = Real(1.0) / groundggt;
@@ -715,116 +713,101 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real groundgga_2 = groundggj_2 * groundggd;
   const Real groundgga_3 = groundggj_3 * groundggd;
   const Real groundgga_4 = groundggj * groundggd;
-  const Real t650 = groundggi * groundggi;
-  const Real t651 = t419 * t602;
-  const Real t653 = t397 * t602;
-  const Real t655 = q0d2 * t602 - q0d1 * t607;
-  const Real t656 = q0d3 * t607;
-  const Real t657 = q0d3 * t597;
-  const Real t658 = q0d1 * t597;
-  const Real t659 = t396 * t612;
-  const Real t660 = t397 * t612;
-  const Real t662 = t660 - (t655 + t657);
-  const Real t663 = q0d2 * t612;
-  const Real t666 = t663 + (t653 - (t656 + t658));
-  const Real t667 = t651 + t659;
-  const Real t672 = q0r0_y * t667 - q0r1_y * t662;
-  const Real t678 = q0r2_y * t662 - q0r0_y * t666;
-  const Real t680 = q0r2_y * t667 + q0r1_y * t666;
-  const Real t681 = t393 * t666;
-  const Real t683 = t678 - (t398 * t662 - expression_67 * t672);
-  const Real t685 = t680 - (t409 * t667 + expression_64 * t672);
-  const Real t695 = (expression_64 * (t678 + t683) + (t681 - expression_67 * (t680 + t685))) * (t395 * t650);
-  const Real t701 = state.z[0] - model.radius * (groundggi * t683 + groundgge_x * t695);
-  const Real t703 = state.z[1] - model.radius * (groundggi * t685 + groundgge_y * t695);
-  const Real t706 = groundgga * t701 - groundgga_2 * t703;
-  const Real t709 = groundgga_3 * t701 - groundgga_4 * t703;
-  const Real t711 = Real(2.0) * t417;
-  const Real t712 = Real(2.0) * t418;
-  const Real t713 = Real(0.5) * t433;
-  const Real t714 = Real(0.5) * t430;
-  const Real t715 = Real(0.5) * t435;
-  const Real t716 = Real(0.5) * t427;
-  const Real t720 = t416 * Real(4.0);
-  const Real t729 = q0r2_x * state.z[3] - (q0r2_z * state.z[5] - q0r2_y * state.z[4]);
-  const Real t733 = q0r1_x * state.z[3] - (q0r1_y * state.z[4] - q0r1_z * state.z[5]);
-  const Real t739 = q0r0_y * state.z[4] + (q0r0_z * state.z[5] - q0r0_x * state.z[3]);
-  const Real t758 = t607 * t711;
-  const Real t759 = t607 * t712;
-  const Real t761 = t602 * t712;
-  const Real t762 = t607 * (q0d2 + q0d2);
-  const Real t766 = t597 * t711;
-  const Real t768 = t397 * t607 + q0d2 * t597;
-  const Real t789 = q0d3 * t602 + q0d1 * t612;
-  const Real t797 = t768 + t789;
-  const Real t798 = groundgv_x * groundgz_z;
-  const Real t804 = groundgo_4 * groundgv_x;
-  const Real t808 = groundgv_y * t739 - (state.z[2] + groundgv_x * t733);
-  const Real t823 = expression_68 * t706 - expression_69 * t709;
-  const Real t825 = expression_69 * t706 - expression_70 * t709;
-  const Real t832 = t400 * t662 + t391 * t823;
-  const Real t840 = groundgs_xy * t825 + (t683 + groundgs_xx * t823);
-  const Real t843 = groundgs_yy * t825 + (t685 + groundgs_xy * t823);
-  const Real t848 = groundgs_yz * t825 - (groundgs_xz * t823 - (expression_67 * t680 - (t681 + expression_64 *
-      t678)));
-  const Real t850 = t408 * t825;
-  const Real t852 = expression_67 * t823 - expression_64 * t825;
-  const Real t855 = t408 * t667 + t392 * t825;
-  const Real t862 = Real(0.5) * (t550 * (groundgo_4 * t850));
-  const Real t878 = t411 * t666 - (t415 * t667 - t414 * t662);
-  const Real t890 = t395 * (expression_67 * t843 - (expression_64 * t840 - (groundgge_x * t823 + (t848 +
-      groundgge_y * t825))));
-  const Real t896 = t650 * t890;
-  const Real t903 = groundggl * t840 - model.radius * (groundgge_x * t896);
-  const Real t906 = groundggl * t843 - model.radius * (groundgge_y * t896);
-  const Real t907 = model.radius * (groundggi * t848 - groundgge_z * t896);
-  const Real t910 = Real(0.5) * ((t400 * t823 - t850) * (groundgo_3 * t524));
-  const Real t914 = groundgo_3 * t862 - groundgo_4 * t910;
+  const Real t663 = t423 * t606 + t400 * t616;
+  const Real t670 = q0d3 * t601 + (q0d2 * t606 - (q0d1 * t611 + t401 * t616));
+  const Real t674 = q0d2 * t616 - (q0d3 * t611 - (t401 * t606 - q0d1 * t601));
+  const Real t676 = q0r0_y * t663 + q0r1_y * t670;
+  const Real t680 = t395 * (groundggi * groundggi);
+  const Real t682 = q0r2_y * t670 + q0r0_y * t674;
+  const Real t684 = q0r2_y * t663 + q0r1_y * t674;
+  const Real t685 = t393 * t674;
+  const Real t687 = t684 - (t406 * t663 + expression_64 * t676);
+  const Real t691 = t682 - (expression_67 * t676 + t417 * t670);
+  const Real t699 = t680 * (expression_64 * (t682 + t691) - (t685 - expression_67 * (t684 + t687)));
+  const Real t705 = state.z[1] - model.radius * (groundggi * t687 - groundgge_y * t699);
+  const Real t707 = state.z[0] + model.radius * (groundggi * t691 + groundgge_x * t699);
+  const Real t710 = groundgga * t707 - groundgga_2 * t705;
+  const Real t713 = groundgga_3 * t707 - groundgga_4 * t705;
+  const Real t714 = Real(2.0) * t422;
+  const Real t715 = Real(2.0) * t421;
+  const Real t716 = Real(0.5) * t430;
+  const Real t717 = Real(0.5) * t435;
+  const Real t718 = Real(0.5) * t440;
+  const Real t719 = Real(0.5) * t445;
+  const Real t734 = t611 * t714;
+  const Real t735 = t611 * t715;
+  const Real t739 = t601 * t714;
+  const Real t741 = t420 * Real(4.0);
+  const Real t743 = t601 * t715;
+  const Real t764 = expression_68 * t710 - expression_69 * t713;
+  const Real t766 = expression_69 * t710 - expression_70 * t713;
+  const Real t771 = t413 * t764;
+  const Real t789 = t404 * t766;
+  const Real t792 = expression_67 * t764 - expression_64 * t766;
+  const Real t800 = Real(0.5) * (groundgo_4 * t554 * t789);
+  const Real t804 = Real(0.5) * (t528 * (groundgo_3 * (t771 - t789)));
+  const Real t812 = t413 * t670;
+  const Real t813 = t392 * t766 + t404 * t663;
+  const Real t817 = q0r2_y * state.z[4];
+  const Real t818 = q0r1_y * state.z[4];
+  const Real t821 = t817 - (q0r2_z * state.z[5] - q0r2_x * state.z[3]);
+  const Real t823 = t818 - (q0r1_z * state.z[5] + q0r1_x * state.z[3]);
+  const Real t825 = q0r0_y * state.z[4] + (q0r0_z * state.z[5] - q0r0_x * state.z[3]);
+  const Real t837 = groundgv_x * t818 - (state.z[3] * (q0r1_x * groundgv_x) + (state.z[5] * (q0r1_z *
+      groundgv_x) + (state.z[2] - groundgv_y * t825)));
+  const Real t842 = groundgv_z * t825 - (groundgv_x * t817 + (q0r2_x * (groundgv_x * state.z[3]) - (state.z[1]
+      + state.z[5] * (q0r2_z * groundgv_x))));
+  const Real t845 = groundgo_4 * t804 - groundgo_3 * t800;
+  const Real t900 = groundgs_xx * t764 - (t691 - groundgs_xy * t766);
+  const Real t902 = groundgs_yy * t766 + (t687 + groundgs_xy * t764);
+  const Real t910 = expression_64 * t682 + (expression_67 * t684 + (groundgs_yz * t766 - (t685 + groundgs_xz *
+      t764)));
+  const Real t914 = t910 - (expression_64 * t900 - (expression_67 * t902 + (groundgge_x * t764 + groundgge_y *
+      t766)));
+  const Real t921 = t680 * t914;
+  const Real t927 = groundggl * t900 - model.radius * (groundgge_x * t921);
+  const Real t930 = groundggl * t902 - model.radius * (groundgge_y * t921);
+  const Real t931 = model.radius * (groundggi * t910 - groundgge_z * t921);
   const Real rww00 = state.z[4] * state.z[5];
   const Real rww02 = state.z[3] * state.z[4];
-  const Real rdn0_x = rww00 * model.rdS00;
-  const Real rdn0_z = rww02 * model.rdS00;
-  const Real t976 = model.c11 * rdn0_x;
-  const Real t977 = model.c11 * rdn0_z;
-  const Real t1019 = t602 * (t602 * t720 - (t758 + (t758 + (state.z[5] * t716 - (state.z[3] * t715 -
-      state.z[4] * t714))))) + (t597 * (t761 + (t761 + (state.z[5] * t714 + (state.z[3] * t713 - state.z[4] *
-      t716)))) + (t612 * (t766 + (t759 + (t612 * t720 + (t759 + (state.z[5] * t715 + (state.z[4] * t713 +
-      (state.z[3] * t716 + t766))))))) - (t449 * t977 - (t445 * t976 - (groundgo_3 * model.c15 - (t404 * t662
-      * (t392 * t852 - (t407 * t667 - (expression_64 * t832 + (t400 * t666 - (t393 - t398) * t823)))) - (t404
-      * t667 * (t391 * t852 - (expression_67 * t855 - (t410 * t825 + (t407 * t662 + t408 * t666)))) -
-      (state.z[1] * (groundgo_3 * t825 + expression_67 * t910) - ((t403 * t878 - (state.z[2] - expression_64 *
-      state.z[0])) * t910 - (model.radius * (groundgo_3 * t878 * (groundggi * t395 * t890)) - ((t855 -
-      (Real(2.0) * t666 + t832)) * (t404 * t666) - (t607 * (state.z[5] * t713 - (state.z[3] * t714 +
-      state.z[4] * t715)) + state.z[0] * (groundgo_3 * t823)))))))))))));
-  const Real t1021 = t662 * (t482 * state.z[4]) + t474 * state.z[3] * t797;
-  const Real t1032 = t563 * t1019 - (grounds1bn0_z * t977 + (grounds1bn0_x * t976 + (groundgy_z * model.c15 +
-      ((groundgy_x * t733 - groundgy_y * t739) * t907 + ((groundgy_z * t739 - groundgy_x * t729) * t906 +
-      ((groundgy_y * t729 - groundgy_z * t733) * t903 - (t1021 + (t808 * (groundgo_5 * t823 + expression_64 *
-      t914) + ((groundgv_y * t729 + (state.z[0] - groundgv_z * t733)) * (groundgo_5 * t850 - groundgo * t914)
-      + ((groundgv_x * t729 - (state.z[1] + groundgv_z * t739)) * (t401 * t914 + groundgo_5 * t852) -
-      t1021))))))))));
-  const Real t1047 = t592 * (t581 * t1032 + (t574 * t1019 - (grounds2bn0_z * t977 + (grounds2bn0_x * t976 -
-      (groundgz_z * model.c15 + (t808 * (groundgo_4 * t825 - expression_67 * t862) + (t739 * (groundgo_4 *
-      t907 - (groundgv_z * t862 - groundgz_z * t906)) + (state.z[4] * (t509 * t903 + (q0r2_y * groundgv_x *
-      t862 - (t666 * t804 - (t667 * t798 - t499 * t662)))) - (state.z[3] * (t503 * t903 + (t797 * t804 -
-      (groundgv_x * (q0r2_x * t862) - ((t660 + (t655 - t657)) * t798 + t499 * (t659 - t762))))) + (state.z[1]
-      * t862 + state.z[5] * (t515 * t903 + (t499 * (t768 - t789) + (q0r2_z * groundgv_x * t862 + ((t663 -
-      (t656 + (t653 - t658))) * t798 - (t651 - t762) * t804))))))))))))));
-  const Real t1049 = t580 * t1032 - t581 * t1047;
-  const Real t1053 = t574 * t1047 - (t562 * t1019 + t563 * t1049);
-  const Real t1054 = Real(4.9999999999999995e-11) * t1053;
-  const Real t1058 = Real(1.5000000000000002e-10) * t1049 - t563 * t1054;
-  const Real t1065 = t592 * (t581 * t1058 - (Real(2.5e-10) * t1047 + t574 * t1054));
-  const Real t1067 = t580 * t1058 - t581 * t1065;
-  const Real t1072 = t574 * t1065 - (t563 * t1067 - (t1053 + t562 * t1054));
-  const Real t1073 = t1049 + t1067;
-  const Real t1074 = t1047 + t1065;
-  zdot[0] = -(model.c13 * (expression_64 * groundgo_3 * t1072 + groundgy_x * t1073));
-  zdot[1] = model.c13 * (groundgo_4 * t1074 + (expression_67 * groundgo_3 * t1072 - groundgy_y * t1073));
-  zdot[2] = -(model.c13 * (groundgz_z * t1074 - (groundgo_3 * t1072 - groundgy_z * t1073) + model.q_2));
-  zdot[3] = -(model.c11 * (grounds2bn0_x * t1074 - (grounds1bn0_x * t1073 + (rdn0_x + t445 * t1072))));
-  zdot[4] = -(model.c12 * (grounds1bn0_y * t1073 - grounds2bn0_y * t1074));
-  zdot[5] = model.c11 * (grounds2bn0_z * t1074 - (grounds1bn0_z * t1073 + (rdn0_z - t449 * t1072)));
+  const Real rdn0_x = rww00 * model.kdS00;
+  const Real rdn0_z = rww02 * model.kdS00;
+  const Real t943 = model.c11 * rdn0_x;
+  const Real t944 = model.c11 * rdn0_z;
+  const Real t984 = t606 * (t739 + (t735 + (state.z[4] * t719 + (state.z[3] * t717 + (state.z[5] * t716 +
+      (t739 + (t735 + t606 * t741))))))) - (t616 * (t743 - (t734 + (t616 * t741 + (t734 + (state.z[5] * t717 -
+      (state.z[3] * t716 + (state.z[4] * t718 + t743))))))) + (t453 * t944 + (t449 * t943 + (groundgo_3 *
+      model.c15 + ((t416 * t670 + (t419 * t674 - t411 * t663)) * (t396 * t804 - t914 * (groundgo_3 * t680) *
+      model.c14) - (t670 * (t397 * (expression_64 * t812 - (t391 * t771 + (t392 * t792 - (t407 * t663 + (t393
+      * t764 - t413 * t674)))))) + (t397 * t663 * (expression_67 * t813 - (t418 * t766 + (t404 * t674 - (t407
+      * t670 - t391 * t792)))) - ((t812 + (t813 - (t391 * t764 + Real(2.0) * t674))) * (t397 * t674) +
+      (state.z[5] * (t611 * t718) - (state.z[1] * (groundgo_3 * t766 + expression_67 * t804) + ((state.z[2] -
+      expression_64 * state.z[0]) * t804 + (state.z[0] * (groundgo_3 * t764) - (t611 * (state.z[4] * t717 -
+      state.z[3] * t719) + t601 * (state.z[5] * t719 - (state.z[4] * t716 - state.z[3] * t718)))))))))))))));
+  const Real t994 = t567 * t984 + (grounds1bn0_z * t944 + (grounds1bn0_x * t943 + (groundgy_z * model.c15 +
+      ((groundgy_z * t825 - groundgy_x * t821) * t930 + ((groundgy_z * t823 + groundgy_y * t821) * t927 -
+      ((groundgy_x * t823 + groundgy_y * t825) * t931 + ((groundgo_5 * t789 + groundgo * t845) * (groundgv_y *
+      t821 + (state.z[0] + groundgv_z * t823)) + (t837 * (groundgo_5 * t764 - expression_64 * t845) + t842 *
+      (t402 * t845 - groundgo_5 * t792)))))))));
+  const Real t1008 = t596 * (t585 * t994 + (t578 * t984 + (grounds2bn0_z * t944 + (grounds2bn0_x * t943 -
+      (groundgz_z * model.c15 + (groundgz_z * t825 * t930 + ((t513 * state.z[4] - (t519 * state.z[5] + t507 *
+      state.z[3])) * t927 + (groundgo_4 * t825 * t931 - (t800 * t842 - t837 * (groundgo_4 * t766 -
+      expression_67 * t800))))))))));
+  const Real t1010 = t584 * t994 - t585 * t1008;
+  const Real t1014 = t578 * t1008 - (t566 * t984 + t567 * t1010);
+  const Real t1015 = Real(4.9999999999999995e-11) * t1014;
+  const Real t1019 = Real(1.5000000000000002e-10) * t1010 - t567 * t1015;
+  const Real t1026 = t596 * (t585 * t1019 - (Real(2.5e-10) * t1008 + t578 * t1015));
+  const Real t1028 = t584 * t1019 - t585 * t1026;
+  const Real t1033 = t578 * t1026 - (t567 * t1028 - (t1014 + t566 * t1015));
+  const Real t1034 = t1010 + t1028;
+  const Real t1035 = t1008 + t1026;
+  zdot[0] = -(model.c13 * (expression_64 * groundgo_3 * t1033 - groundgy_x * t1034));
+  zdot[1] = -(model.c13 * (groundgo_4 * t1035 - (expression_67 * groundgo_3 * t1033 + groundgy_y * t1034)));
+  zdot[2] = model.c13 * (groundgz_z * t1035 + (groundgo_3 * t1033 + groundgy_z * t1034) - model.q_2);
+  zdot[3] = model.c11 * (grounds2bn0_x * t1035 - (grounds1bn0_x * t1034 - (rdn0_x - t449 * t1033)));
+  zdot[4] = model.c12 * (grounds1bn0_y * t1034 - grounds2bn0_y * t1035);
+  zdot[5] = -(model.c11 * (grounds2bn0_z * t1035 - (grounds1bn0_z * t1034 - (rdn0_z - t453 * t1033))));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -1094,7 +1077,8 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real groundggu = expression_68 * groundgge_y - (groundgge_z - expression_65 * groundgge_x);
   const Real groundggr = detail::square_root(groundggu);
   const Real groundgo = Real(1.0) + expression_68 * expression_68;
-  const Real groundgo_2 = groundgo + expression_65 * expression_65;
+  const Real t383 = expression_65 * expression_65;
+  const Real groundgo_2 = groundgo + t383;
   const Real groundgo_3 = Real(1.0) / detail::square_root(groundgo_2);
   const Real groundgv = state.y[2] - (model.radius * groundggr + (expression_68 * (state.y[1] + groundgc_8) +
       (expression_62 + expression_65 * (state.y[0] - groundgc_7))));
@@ -1104,21 +1088,23 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real t401 = state.y[5] * Real(0.5);
   const Real t402 = state.y[6] * Real(0.5);
   const Real groundggi = Real(1.0) / groundggr;
-  const Real t406 = Real(2.0) * state.y[3];
-  const Real t413 = groundgo_3 * groundggi * model.c18;
-  const Real t414 = expression_65 * groundgo_3;
-  const Real t415 = expression_68 * groundgo_3;
-  const Real t418 = expression_65 * (q0r0_y + q0r0_y) - q0r1_y * (expression_68 + expression_68);
-  const Real t420 = t418 - (q0r2_y + q0r2_y);
-  const Real t424 = t413 * (expression_68 * t420);
-  const Real t425 = t413 * (q0r2_y * (expression_65 + expression_65) - expression_65 * t418);
-  const Real t426 = t413 * t420;
-  const Real t435 = q0d1 * t425 + q0d3 * t426;
-  const Real t438 = q0d2 * t426 - (t406 * t425 - (q0d3 + q0d3) * t424);
-  const Real t441 = t406 * t426 + (q0d2 * t425 + t424 * (q0d1 + q0d1));
-  const Real t443 = q0d3 * t425 - q0d1 * t426;
-  const Real t453 = t400 * t443 - (t401 * t438 - (t399 * t441 + t402 * t435));
-  const Real t457 = t402 * t443 + (t399 * t438 + (t401 * t441 - t400 * t435));
+  const Real t407 = groundgo_3 * groundggi * model.c14;
+  const Real t408 = expression_65 * groundgo_3;
+  const Real t409 = expression_68 * groundgo_3;
+  const Real t410 = Real(2.0) * state.y[3];
+  const Real t413 = expression_68 + expression_68;
+  const Real t414 = q0r1_y * t413;
+  const Real t416 = expression_65 + expression_65;
+  const Real t424 = t407 * (q0r2_y * t416 - (t383 * (q0r0_y + q0r0_y) - expression_65 * t414));
+  const Real t425 = t407 * (q0r0_y * t416 - (t414 + (q0r2_y + q0r2_y)));
+  const Real t427 = q0d1 * t425;
+  const Real t428 = q0d3 * t425;
+  const Real t432 = t428 + q0d1 * t424;
+  const Real t437 = t427 - q0d3 * t424;
+  const Real t442 = t413 * t427 + (t410 * t425 + q0d2 * t424);
+  const Real t447 = t413 * t428 + (q0d2 * t425 - t410 * t424);
+  const Real t451 = t401 * t447 - (t399 * t442 + (t402 * t432 - t400 * t437));
+  const Real t455 = t399 * t447 + (t401 * t442 - (t400 * t432 + t402 * t437));
   const Real q022 = state.y[5] * q0d2;
   const Real q013 = state.y[4] * q0d3;
   const Real q002 = q0d2 * state.y[3];
@@ -1139,72 +1125,72 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real groundgv_x = model.radius * groundggq_x;
   const Real groundgv_y = model.radius * groundggq_y;
   const Real groundgv_z = model.radius * groundggq_z;
-  const Real t482 = groundgy_x * groundgv_y + groundgy_y * groundgv_x;
-  const Real t486 = groundgy_x * groundgv_z - groundgy_z * groundgv_x;
-  const Real t490 = groundgy_y * groundgv_z + groundgy_z * groundgv_y;
-  const Real grounds1bn0_x = q0r0_x * t490 + (q0r2_x * t482 - q0r1_x * t486);
-  const Real grounds1bn0_y = q0r0_y * t490 - (q0r2_y * t482 + q0r1_y * t486);
-  const Real grounds1bn0_z = q0r0_z * t490 + (q0r2_z * t482 + q0r1_z * t486);
+  const Real t480 = groundgy_x * groundgv_y + groundgy_y * groundgv_x;
+  const Real t484 = groundgy_x * groundgv_z - groundgy_z * groundgv_x;
+  const Real t488 = groundgy_y * groundgv_z + groundgy_z * groundgv_y;
+  const Real grounds1bn0_x = q0r0_x * t488 + (q0r2_x * t480 - q0r1_x * t484);
+  const Real grounds1bn0_y = q0r0_y * t488 - (q0r2_y * t480 + q0r1_y * t484);
+  const Real grounds1bn0_z = q0r0_z * t488 + (q0r2_z * t480 + q0r1_z * t484);
   const Real groundgz_z = expression_68 * groundgo_4;
-  const Real t507 = groundgo_4 * groundgv_z - groundgv_y * groundgz_z;
-  const Real grounds2bn0_x = q0r0_x * t507 - groundgv_x * (q0r1_x * groundgz_z - q0r2_x * groundgo_4);
-  const Real grounds2bn0_y = q0r0_y * t507 - groundgv_x * (q0r1_y * groundgz_z + q0r2_y * groundgo_4);
-  const Real grounds2bn0_z = q0r0_z * t507 + groundgv_x * (q0r1_z * groundgz_z + q0r2_z * groundgo_4);
-  const Real t530 = grounds1bn0_x * model.c19;
-  const Real t531 = grounds1bn0_z * model.c19;
-  const Real t534 = t453 * t530 - t457 * t531;
-  const Real t543 = grounds2bn0_x * model.c19;
-  const Real t544 = grounds2bn0_y * model.c12;
-  const Real t545 = grounds2bn0_z * model.c19;
-  const Real t548 = t453 * t543 - t457 * t545;
-  const Real t564 = Real(1.0) / (groundgo_2 * (groundgo_3 * groundgo_3) * model.c13 + model.c19 * (t453 * t453
-      + t457 * t457) + Real(4.9999999999999995e-11));
-  const Real t565 = t534 * t564;
-  const Real t576 = t548 * t564;
-  const Real t580 = t534 * t576 - (grounds1bn0_z * t545 + (grounds1bn0_x * t543 + grounds1bn0_y * t544));
-  const Real t582 = Real(1.0) / (model.c13 * (groundgy_z * groundgy_z + (groundgy_x * groundgy_x + groundgy_y
-      * groundgy_y)) - (t534 * t565 - (grounds1bn0_z * t531 + (grounds1bn0_x * t530 + grounds1bn0_y *
+  const Real t505 = groundgo_4 * groundgv_z - groundgv_y * groundgz_z;
+  const Real grounds2bn0_x = q0r0_x * t505 - groundgv_x * (q0r1_x * groundgz_z - q0r2_x * groundgo_4);
+  const Real grounds2bn0_y = q0r0_y * t505 - groundgv_x * (q0r1_y * groundgz_z + q0r2_y * groundgo_4);
+  const Real grounds2bn0_z = q0r0_z * t505 + groundgv_x * (q0r1_z * groundgz_z + q0r2_z * groundgo_4);
+  const Real t528 = grounds1bn0_x * model.c18;
+  const Real t529 = grounds1bn0_z * model.c18;
+  const Real t532 = t451 * t528 + t455 * t529;
+  const Real t541 = grounds2bn0_x * model.c18;
+  const Real t542 = grounds2bn0_y * model.c12;
+  const Real t543 = grounds2bn0_z * model.c18;
+  const Real t546 = t451 * t541 + t455 * t543;
+  const Real t562 = Real(1.0) / (groundgo_2 * (groundgo_3 * groundgo_3) * model.c13 + model.c18 * (t451 * t451
+      + t455 * t455) + Real(4.9999999999999995e-11));
+  const Real t563 = t532 * t562;
+  const Real t574 = t546 * t562;
+  const Real t578 = t532 * t574 - (grounds1bn0_z * t543 + (grounds1bn0_x * t541 + grounds1bn0_y * t542));
+  const Real t580 = Real(1.0) / (model.c13 * (groundgy_z * groundgy_z + (groundgy_x * groundgy_x + groundgy_y
+      * groundgy_y)) - (t532 * t563 - (grounds1bn0_z * t529 + (grounds1bn0_x * t528 + grounds1bn0_y *
       grounds1bn0_y * model.c12)) - Real(1.5000000000000002e-10)));
-  const Real t583 = t580 * t582;
-  const Real t594 = Real(1.0) / (t580 * t583 + (t548 * t576 - (grounds2bn0_z * t545 + (grounds2bn0_y * t544 +
-      (grounds2bn0_x * t543 + model.c13 * (groundgo * (groundgo_4 * groundgo_4)))))) - Real(2.5e-10));
-  const Real t595 = g_ground * t565;
-  const Real t601 = t594 * (g_ground * t576 + t583 * t595);
-  const Real t603 = t582 * t595 - t583 * t601;
-  const Real t607 = t576 * t601 - (g_ground * t564 + t565 * t603);
-  const Real t634 = model.c13 * (t414 * t607 - groundgy_x * t603);
-  const Real t635 = model.c13 * (groundgo_4 * t601 - (t415 * t607 + groundgy_y * t603));
-  const Real t636 = model.c13 * (groundgz_z * t601 + (groundgo_3 * t607 + groundgy_z * t603));
-  const Real t637 = model.c19 * (grounds2bn0_x * t601 - (t453 * t607 + grounds1bn0_x * t603));
-  const Real t638 = model.c12 * (grounds1bn0_y * t603 - grounds2bn0_y * t601);
-  const Real t639 = model.c19 * (grounds2bn0_z * t601 + (t457 * t607 - grounds1bn0_z * t603));
-  const Real t640 = state.y[0] - t634;
-  const Real t641 = state.y[1] + t635;
+  const Real t581 = t578 * t580;
+  const Real t592 = Real(1.0) / (t578 * t581 + (t546 * t574 - (grounds2bn0_z * t543 + (grounds2bn0_y * t542 +
+      (grounds2bn0_x * t541 + model.c13 * (groundgo * (groundgo_4 * groundgo_4)))))) - Real(2.5e-10));
+  const Real t593 = g_ground * t563;
+  const Real t599 = t592 * (g_ground * t574 + t581 * t593);
+  const Real t601 = t580 * t593 - t581 * t599;
+  const Real t605 = t574 * t599 - (g_ground * t562 + t563 * t601);
+  const Real t632 = model.c13 * (t408 * t605 + groundgy_x * t601);
+  const Real t633 = model.c13 * (groundgo_4 * t599 + (t409 * t605 - groundgy_y * t601));
+  const Real t634 = model.c13 * (groundgz_z * t599 - (groundgo_3 * t605 - groundgy_z * t601));
+  const Real t635 = model.c18 * (grounds2bn0_x * t599 - (t451 * t605 + grounds1bn0_x * t601));
+  const Real t636 = model.c12 * (grounds1bn0_y * t601 - grounds2bn0_y * t599);
+  const Real t637 = model.c18 * (grounds2bn0_z * t599 - (t455 * t605 + grounds1bn0_z * t601));
+  const Real t638 = state.y[0] - t632;
+  const Real t639 = state.y[1] - t633;
+  const Real t641 = Real(0.5) * t635;
+  const Real t642 = Real(0.5) * t636;
   const Real t643 = Real(0.5) * t637;
-  const Real t644 = Real(0.5) * t638;
-  const Real t645 = Real(0.5) * t639;
-  const Real t652 = state.y[6] * t644 + (state.y[5] * t645 - (state.y[4] + state.y[3] * t643));
-  const Real t659 = state.y[4] * t645 + (state.y[6] * t643 + (state.y[5] + state.y[3] * t644));
-  const Real t663 = state.y[6] * t645 - (state.y[5] * t644 - (state.y[3] - state.y[4] * t643));
-  const Real t669 = state.y[5] * t643 - (state.y[4] * t644 + (state.y[6] - state.y[3] * t645));
-  const Real t678 = Real(1.0) / detail::square_root(t669 * t669 + (t659 * t659 + (t663 * t663 + t652 *
-      t652)));
-  const Real t679 = t663 * t678;
-  const Real t680 = t652 * t678;
-  const Real t681 = t659 * t678;
-  const Real t682 = t669 * t678;
-  const Real q0d1_2 = Real(2.0) * t680;
-  const Real q0d2_2 = Real(2.0) * t681;
-  const Real q0d3_2 = Real(2.0) * t682;
-  const Real q011_2 = t680 * q0d1_2;
-  const Real q033_2 = t682 * q0d3_2;
-  const Real q012_2 = t680 * q0d2_2;
-  const Real q023_2 = t681 * q0d3_2;
-  const Real q001_2 = t679 * q0d1_2;
-  const Real q003_2 = t679 * q0d3_2;
+  const Real t650 = state.y[6] * t642 + (state.y[5] * t643 + (state.y[4] - state.y[3] * t641));
+  const Real t657 = state.y[4] * t643 + (state.y[6] * t641 - (state.y[5] - state.y[3] * t642));
+  const Real t661 = state.y[6] * t643 - (state.y[5] * t642 + (state.y[3] + state.y[4] * t641));
+  const Real t667 = state.y[5] * t641 - (state.y[4] * t642 - (state.y[6] + state.y[3] * t643));
+  const Real t676 = Real(1.0) / detail::square_root(t667 * t667 + (t657 * t657 + (t661 * t661 + t650 *
+      t650)));
+  const Real t677 = t661 * t676;
+  const Real t678 = t650 * t676;
+  const Real t679 = t657 * t676;
+  const Real t680 = t667 * t676;
+  const Real q0d1_2 = Real(2.0) * t678;
+  const Real q0d2_2 = Real(2.0) * t679;
+  const Real q0d3_2 = Real(2.0) * t680;
+  const Real q011_2 = t678 * q0d1_2;
+  const Real q033_2 = t680 * q0d3_2;
+  const Real q012_2 = t678 * q0d2_2;
+  const Real q023_2 = t679 * q0d3_2;
+  const Real q001_2 = t677 * q0d1_2;
+  const Real q003_2 = t677 * q0d3_2;
   const Real q0r0_y_2 = q012_2 - q003_2;
-  const Real t693 = Real(1.0) - q011_2;
-  const Real q0r1_y_2 = q033_2 - t693;
+  const Real t691 = Real(1.0) - q011_2;
+  const Real q0r1_y_2 = q033_2 - t691;
   const Real q0r2_y_2 = q023_2 + q001_2;
   const Real groundgs_xx_2 = Real(1.0) - q0r0_y_2 * q0r0_y_2;
   const Real groundgs_xy_2 = q0r0_y_2 * q0r1_y_2;
@@ -1212,11 +1198,11 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real groundgs_yy_2 = Real(1.0) - q0r1_y_2 * q0r1_y_2;
   const Real groundgs_yz_2 = q0r1_y_2 * q0r2_y_2;
   const Real groundgs_zz_2 = Real(1.0) - q0r2_y_2 * q0r2_y_2;
-  const Real expression_69 = model.wave * t640;
+  const Real expression_69 = model.wave * t638;
   Real expression_75, expression_70;
   detail::sine_cosine(expression_69, expression_75, expression_70);
   const Real expression_71 = model.c6 * expression_70;
-  const Real expression_72 = model.wave * t641;
+  const Real expression_72 = model.wave * t639;
   Real expression_78, expression_73;
   detail::sine_cosine(expression_72, expression_78, expression_73);
   const Real expression_74 = expression_71 * expression_73;
@@ -1240,14 +1226,14 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real groundg0f_4 = model.radius * groundg0q_y_2;
   const Real groundg0p_5 = groundgs_xy_2 - groundg0q_x_2 * groundg0q_y_2;
   const Real groundg0p_6 = groundgs_yy_2 - groundg0q_y_2 * groundg0q_y_2;
-  const Real t749 = expression_81 * groundg0p_5;
-  const Real groundg0k_5 = expression_76 * groundg0p_4 - t749;
+  const Real t747 = expression_81 * groundg0p_5;
+  const Real groundg0k_5 = expression_76 * groundg0p_4 - t747;
   const Real groundg0j_5 = Real(1.0) + groundg0l_2 * groundg0k_5;
   const Real groundg0k_6 = expression_81 * groundg0p_4 - expression_82 * groundg0p_5;
   const Real groundg0j_6 = groundg0l_2 * groundg0k_6;
   const Real groundg0k_7 = expression_76 * groundg0p_5 - expression_81 * groundg0p_6;
   const Real groundg0j_7 = groundg0l_2 * groundg0k_7;
-  const Real groundg0k_8 = t749 - expression_82 * groundg0p_6;
+  const Real groundg0k_8 = t747 - expression_82 * groundg0p_6;
   const Real groundg0j_8 = Real(1.0) - groundg0l_2 * groundg0k_8;
   const Real groundg0t_2 = groundg0j_5 * groundg0j_8 + groundg0j_6 * groundg0j_7;
   const Real groundg0d_2 = Real(1.0) / groundg0t_2;
@@ -1255,8 +1241,8 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real groundg0a_6 = groundg0j_6 * groundg0d_2;
   const Real groundg0a_7 = groundg0j_7 * groundg0d_2;
   const Real groundg0a_8 = groundg0j_5 * groundg0d_2;
-  const Real groundgc_9 = groundg0f_4 * groundg0a_6 + (t640 + groundg0f_3 * groundg0a_5);
-  const Real groundgc_10 = groundg0f_4 * groundg0a_8 - (t641 + groundg0f_3 * groundg0a_7);
+  const Real groundgc_9 = groundg0f_4 * groundg0a_6 + (t638 + groundg0f_3 * groundg0a_5);
+  const Real groundgc_10 = groundg0f_4 * groundg0a_8 - (t639 + groundg0f_3 * groundg0a_7);
   const Real expression_83 = model.wave * groundgc_9;
   Real expression_89, expression_84;
   detail::sine_cosine(expression_83, expression_89, expression_84);
@@ -1280,19 +1266,19 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real groundg1q_x_2 = groundg1e_x_2 * groundg1i_2;
   const Real groundg1q_y_2 = groundg1e_y_2 * groundg1i_2;
   const Real groundg1l_2 = model.radius * groundg1i_2;
-  const Real groundg1f_3 = model.radius * groundg1q_x_2 - (t640 - groundgc_9);
+  const Real groundg1f_3 = model.radius * groundg1q_x_2 - (t638 - groundgc_9);
   const Real groundg1p_4 = groundgs_xx_2 - groundg1q_x_2 * groundg1q_x_2;
-  const Real groundg1f_4 = model.radius * groundg1q_y_2 + (t641 + groundgc_10);
+  const Real groundg1f_4 = model.radius * groundg1q_y_2 + (t639 + groundgc_10);
   const Real groundg1p_5 = groundgs_xy_2 - groundg1q_x_2 * groundg1q_y_2;
   const Real groundg1p_6 = groundgs_yy_2 - groundg1q_y_2 * groundg1q_y_2;
-  const Real t829 = expression_95 * groundg1p_5;
-  const Real groundg1k_5 = expression_90 * groundg1p_4 + t829;
+  const Real t827 = expression_95 * groundg1p_5;
+  const Real groundg1k_5 = expression_90 * groundg1p_4 + t827;
   const Real groundg1j_5 = Real(1.0) + groundg1l_2 * groundg1k_5;
   const Real groundg1k_6 = expression_95 * groundg1p_4 + expression_96 * groundg1p_5;
   const Real groundg1j_6 = groundg1l_2 * groundg1k_6;
   const Real groundg1k_7 = expression_90 * groundg1p_5 + expression_95 * groundg1p_6;
   const Real groundg1j_7 = groundg1l_2 * groundg1k_7;
-  const Real groundg1k_8 = t829 + expression_96 * groundg1p_6;
+  const Real groundg1k_8 = t827 + expression_96 * groundg1p_6;
   const Real groundg1j_8 = Real(1.0) + groundg1l_2 * groundg1k_8;
   const Real groundg1t_2 = groundg1j_5 * groundg1j_8 - groundg1j_6 * groundg1j_7;
   const Real groundg1d_2 = Real(1.0) / groundg1t_2;
@@ -1327,19 +1313,19 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real groundg2q_x_2 = groundg2e_x_2 * groundg2i_2;
   const Real groundg2q_y_2 = groundg2e_y_2 * groundg2i_2;
   const Real groundg2l_2 = model.radius * groundg2i_2;
-  const Real groundg2f_3 = model.radius * groundg2q_x_2 + (t640 - groundgc_11);
+  const Real groundg2f_3 = model.radius * groundg2q_x_2 + (t638 - groundgc_11);
   const Real groundg2p_4 = groundgs_xx_2 - groundg2q_x_2 * groundg2q_x_2;
-  const Real groundg2f_4 = model.radius * groundg2q_y_2 - (t641 - groundgc_12);
+  const Real groundg2f_4 = model.radius * groundg2q_y_2 - (t639 - groundgc_12);
   const Real groundg2p_5 = groundgs_xy_2 - groundg2q_x_2 * groundg2q_y_2;
   const Real groundg2p_6 = groundgs_yy_2 - groundg2q_y_2 * groundg2q_y_2;
-  const Real t909 = expression_109 * groundg2p_5;
-  const Real groundg2k_5 = expression_104 * groundg2p_4 - t909;
+  const Real t907 = expression_109 * groundg2p_5;
+  const Real groundg2k_5 = expression_104 * groundg2p_4 - t907;
   const Real groundg2j_5 = Real(1.0) + groundg2l_2 * groundg2k_5;
   const Real groundg2k_6 = expression_109 * groundg2p_4 - expression_110 * groundg2p_5;
   const Real groundg2j_6 = groundg2l_2 * groundg2k_6;
   const Real groundg2k_7 = expression_104 * groundg2p_5 - expression_109 * groundg2p_6;
   const Real groundg2j_7 = groundg2l_2 * groundg2k_7;
-  const Real groundg2k_8 = t909 - expression_110 * groundg2p_6;
+  const Real groundg2k_8 = t907 - expression_110 * groundg2p_6;
   const Real groundg2j_8 = Real(1.0) - groundg2l_2 * groundg2k_8;
   const Real groundg2t_2 = groundg2j_5 * groundg2j_8 + groundg2j_6 * groundg2j_7;
   const Real groundg2d_2 = Real(1.0) / groundg2t_2;
@@ -1374,19 +1360,19 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real groundg3q_x_2 = groundg3e_x_2 * groundg3i_2;
   const Real groundg3q_y_2 = groundg3e_y_2 * groundg3i_2;
   const Real groundg3l_2 = model.radius * groundg3i_2;
-  const Real groundg3f_3 = model.radius * groundg3q_x_2 - (t640 - groundgc_13);
+  const Real groundg3f_3 = model.radius * groundg3q_x_2 - (t638 - groundgc_13);
   const Real groundg3p_4 = groundgs_xx_2 - groundg3q_x_2 * groundg3q_x_2;
-  const Real groundg3f_4 = model.radius * groundg3q_y_2 + (t641 + groundgc_14);
+  const Real groundg3f_4 = model.radius * groundg3q_y_2 + (t639 + groundgc_14);
   const Real groundg3p_5 = groundgs_xy_2 - groundg3q_x_2 * groundg3q_y_2;
   const Real groundg3p_6 = groundgs_yy_2 - groundg3q_y_2 * groundg3q_y_2;
-  const Real t989 = expression_123 * groundg3p_5;
-  const Real groundg3k_5 = expression_118 * groundg3p_4 + t989;
+  const Real t987 = expression_123 * groundg3p_5;
+  const Real groundg3k_5 = expression_118 * groundg3p_4 + t987;
   const Real groundg3j_5 = Real(1.0) + groundg3l_2 * groundg3k_5;
   const Real groundg3k_6 = expression_123 * groundg3p_4 + expression_124 * groundg3p_5;
   const Real groundg3j_6 = groundg3l_2 * groundg3k_6;
   const Real groundg3k_7 = expression_118 * groundg3p_5 + expression_123 * groundg3p_6;
   const Real groundg3j_7 = groundg3l_2 * groundg3k_7;
-  const Real groundg3k_8 = t989 + expression_124 * groundg3p_6;
+  const Real groundg3k_8 = t987 + expression_124 * groundg3p_6;
   const Real groundg3j_8 = Real(1.0) + groundg3l_2 * groundg3k_8;
   const Real groundg3t_2 = groundg3j_5 * groundg3j_8 - groundg3j_6 * groundg3j_7;
   const Real groundg3d_2 = Real(1.0) / groundg3t_2;
@@ -1413,72 +1399,71 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real groundggu_2 = expression_132 * groundgge_y_2 - (groundgge_z_2 - expression_130 * groundgge_x_2);
   const Real groundggr_2 = detail::square_root(groundggu_2);
   const Real groundgo_6 = Real(1.0) + expression_132 * expression_132;
-  const Real groundgo_7 = groundgo_6 + expression_130 * expression_130;
+  const Real t1048 = expression_130 * expression_130;
+  const Real groundgo_7 = groundgo_6 + t1048;
   const Real groundgo_8 = Real(1.0) / detail::square_root(groundgo_7);
+  const Real t1052 = Real(0.5) * t677;
+  const Real t1053 = Real(0.5) * t678;
   const Real t1054 = Real(0.5) * t679;
   const Real t1055 = Real(0.5) * t680;
-  const Real t1056 = Real(0.5) * t681;
-  const Real t1057 = Real(0.5) * t682;
   const Real groundggi_2 = Real(1.0) / groundggr_2;
-  const Real t1061 = Real(2.0) * t679;
-  const Real t1062 = expression_130 * (q0r0_y_2 + q0r0_y_2);
-  const Real t1065 = expression_130 * expression_132;
-  const Real t1068 = model.c18 * (groundgo_8 * groundggi_2);
-  const Real t1071 = t1065 + t1065;
-  const Real t1072 = expression_132 + expression_132;
-  const Real t1074 = q0r1_y_2 * t1072;
-  const Real t1085 = t1068 * (expression_132 * t1074 + (q0r2_y_2 * t1072 - q0r0_y_2 * t1071));
-  const Real t1086 = t1068 * (q0r1_y_2 * t1071 - (expression_130 * t1062 - q0r2_y_2 * (expression_130 +
-      expression_130)));
-  const Real t1087 = t1068 * (t1074 - (t1062 - (q0r2_y_2 + q0r2_y_2)));
-  const Real t1096 = q0d1_2 * t1086 - q0d3_2 * t1087;
-  const Real t1099 = q0d2_2 * t1087 + (t1061 * t1086 + (q0d3_2 + q0d3_2) * t1085);
-  const Real t1102 = t1061 * t1087 - (q0d2_2 * t1086 - t1085 * (q0d1_2 + q0d1_2));
-  const Real t1104 = q0d3_2 * t1086 + q0d1_2 * t1087;
-  const Real q022_2 = t681 * q0d2_2;
-  const Real q013_2 = t680 * q0d3_2;
-  const Real q002_2 = t679 * q0d2_2;
+  const Real t1059 = model.c14 * (groundgo_8 * groundggi_2);
+  const Real t1062 = Real(2.0) * t677;
+  const Real t1065 = expression_132 + expression_132;
+  const Real t1066 = q0r1_y_2 * t1065;
+  const Real t1068 = expression_130 + expression_130;
+  const Real t1076 = t1059 * (q0r2_y_2 * t1068 - (t1048 * (q0r0_y_2 + q0r0_y_2) - expression_130 * t1066));
+  const Real t1077 = t1059 * (q0r0_y_2 * t1068 - (t1066 + (q0r2_y_2 + q0r2_y_2)));
+  const Real t1079 = q0d1_2 * t1077;
+  const Real t1080 = q0d3_2 * t1077;
+  const Real t1084 = t1080 + q0d1_2 * t1076;
+  const Real t1089 = t1079 - q0d3_2 * t1076;
+  const Real t1094 = t1065 * t1079 + (t1062 * t1077 + q0d2_2 * t1076);
+  const Real t1099 = t1065 * t1080 + (q0d2_2 * t1077 - t1062 * t1076);
+  const Real q022_2 = t679 * q0d2_2;
+  const Real q013_2 = t678 * q0d3_2;
+  const Real q002_2 = t677 * q0d2_2;
   const Real q0r0_x_2 = q022_2 - (Real(1.0) - q033_2);
   const Real q0r0_z_2 = q013_2 + q002_2;
   const Real q0r1_x_2 = q012_2 + q003_2;
   const Real q0r1_z_2 = q023_2 - q001_2;
   const Real q0r2_x_2 = q013_2 - q002_2;
-  const Real q0r2_z_2 = t693 - q022_2;
+  const Real q0r2_z_2 = t691 - q022_2;
   const Real groundggq_x_2 = groundgge_x_2 * groundggi_2;
   const Real groundggq_y_2 = groundgge_y_2 * groundggi_2;
   const Real groundggq_z_2 = groundgge_z_2 * groundggi_2;
   const Real groundgo_9 = Real(1.0) / detail::square_root(groundgo_6);
   const Real groundgo_10 = groundgo_8 * groundgo_9;
   const Real groundgy_x_2 = groundgo_6 * groundgo_10;
-  const Real groundgy_y_2 = t1065 * groundgo_10;
+  const Real groundgy_y_2 = expression_130 * expression_132 * groundgo_10;
   const Real groundgy_z_2 = expression_130 * groundgo_10;
   const Real groundgv_x_2 = model.radius * groundggq_x_2;
   const Real groundgv_y_2 = model.radius * groundggq_y_2;
   const Real groundgv_z_2 = model.radius * groundggq_z_2;
-  const Real t1143 = groundgy_x_2 * groundgv_y_2 + groundgy_y_2 * groundgv_x_2;
-  const Real t1147 = groundgy_x_2 * groundgv_z_2 - groundgy_z_2 * groundgv_x_2;
-  const Real t1151 = groundgy_y_2 * groundgv_z_2 + groundgy_z_2 * groundgv_y_2;
-  const Real grounds1bn0_x_2 = q0r0_x_2 * t1151 + (q0r2_x_2 * t1143 - q0r1_x_2 * t1147);
-  const Real grounds1bn0_y_2 = q0r0_y_2 * t1151 - (q0r2_y_2 * t1143 + q0r1_y_2 * t1147);
-  const Real grounds1bn0_z_2 = q0r0_z_2 * t1151 - (q0r2_z_2 * t1143 - q0r1_z_2 * t1147);
+  const Real t1132 = groundgy_x_2 * groundgv_y_2 + groundgy_y_2 * groundgv_x_2;
+  const Real t1136 = groundgy_x_2 * groundgv_z_2 - groundgy_z_2 * groundgv_x_2;
+  const Real t1140 = groundgy_y_2 * groundgv_z_2 + groundgy_z_2 * groundgv_y_2;
+  const Real grounds1bn0_x_2 = q0r0_x_2 * t1140 + (q0r2_x_2 * t1132 - q0r1_x_2 * t1136);
+  const Real grounds1bn0_y_2 = q0r0_y_2 * t1140 - (q0r2_y_2 * t1132 + q0r1_y_2 * t1136);
+  const Real grounds1bn0_z_2 = q0r0_z_2 * t1140 - (q0r2_z_2 * t1132 - q0r1_z_2 * t1136);
   const Real groundgz_z_2 = expression_132 * groundgo_9;
-  const Real t1168 = groundgo_9 * groundgv_z_2 - groundgv_y_2 * groundgz_z_2;
-  const Real grounds2bn0_x_2 = q0r0_x_2 * t1168 - groundgv_x_2 * (q0r1_x_2 * groundgz_z_2 - q0r2_x_2 *
+  const Real t1157 = groundgo_9 * groundgv_z_2 - groundgv_y_2 * groundgz_z_2;
+  const Real grounds2bn0_x_2 = q0r0_x_2 * t1157 - groundgv_x_2 * (q0r1_x_2 * groundgz_z_2 - q0r2_x_2 *
       groundgo_9);
-  const Real grounds2bn0_y_2 = q0r0_y_2 * t1168 - groundgv_x_2 * (q0r1_y_2 * groundgz_z_2 + q0r2_y_2 *
+  const Real grounds2bn0_y_2 = q0r0_y_2 * t1157 - groundgv_x_2 * (q0r1_y_2 * groundgz_z_2 + q0r2_y_2 *
       groundgo_9);
-  const Real grounds2bn0_z_2 = q0r0_z_2 * t1168 + groundgv_x_2 * (q0r1_z_2 * groundgz_z_2 - q0r2_z_2 *
+  const Real grounds2bn0_z_2 = q0r0_z_2 * t1157 + groundgv_x_2 * (q0r1_z_2 * groundgz_z_2 - q0r2_z_2 *
       groundgo_9);
-  const Real t1201 = (t1057 * t1104 - (t1054 * t1099 + (t1056 * t1102 + t1055 * t1096))) * state.z[5] +
-      ((t1055 * t1104 + (t1056 * t1099 - (t1054 * t1102 - t1057 * t1096))) * state.z[3] + (groundgo_8 *
+  const Real t1190 = (t1052 * t1099 + (t1054 * t1094 - (t1053 * t1084 + t1055 * t1089))) * state.z[5] -
+      ((t1054 * t1099 - (t1052 * t1094 + (t1055 * t1084 - t1053 * t1089))) * state.z[3] - (groundgo_8 *
       state.z[2] - (expression_130 * groundgo_8 * state.z[0] - expression_132 * groundgo_8 * state.z[1])));
-  const Real t1219 = t565 * t1201 + (grounds1bn0_z_2 * state.z[5] - (grounds1bn0_y_2 * state.z[4] +
+  const Real t1208 = t563 * t1190 - (grounds1bn0_z_2 * state.z[5] - (grounds1bn0_y_2 * state.z[4] +
       (grounds1bn0_x_2 * state.z[3] + (groundgy_z_2 * state.z[2] + (groundgy_x_2 * state.z[0] + groundgy_y_2 *
       state.z[1])))));
-  const Real t1230 = t594 * (t583 * t1219 + (t576 * t1201 - (grounds2bn0_z_2 * state.z[5] - (grounds2bn0_y_2 *
+  const Real t1219 = t592 * (t581 * t1208 + (t574 * t1190 + (grounds2bn0_z_2 * state.z[5] - (grounds2bn0_y_2 *
       state.z[4] + (grounds2bn0_x_2 * state.z[3] + (groundgo_9 * state.z[1] - groundgz_z_2 * state.z[2]))))));
-  const Real t1232 = t582 * t1219 - t583 * t1230;
-  const Real t1236 = t576 * t1230 - (t564 * t1201 + t565 * t1232);
+  const Real t1221 = t580 * t1208 - t581 * t1219;
+  const Real t1225 = t574 * t1219 - (t562 * t1190 + t563 * t1221);
   const Real expression_133 = model.c7 * (expression_58 * expression_61);
   const Real expression_134 = expression_64 * expression_67;
   const Real expression_135 = model.c9 * expression_62;
@@ -1486,33 +1471,33 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real groundggp = groundgs_xx - groundggq_x * groundggq_x;
   const Real groundggp_2 = groundgs_xy - groundggq_x * groundggq_y;
   const Real groundggp_3 = groundgs_yy - groundggq_y * groundggq_y;
-  const Real t1295 = expression_134 * groundggp_2;
-  const Real groundggk = expression_133 * groundggp - t1295;
+  const Real t1284 = expression_134 * groundggp_2;
+  const Real groundggk = expression_133 * groundggp - t1284;
   const Real groundggj = Real(1.0) + groundggl * groundggk;
   const Real groundggk_2 = expression_134 * groundggp - expression_135 * groundggp_2;
   const Real groundggj_2 = groundggl * groundggk_2;
   const Real groundggk_3 = expression_133 * groundggp_2 - expression_134 * groundggp_3;
   const Real groundggj_3 = groundggl * groundggk_3;
-  const Real groundggk_4 = t1295 - expression_135 * groundggp_3;
+  const Real groundggk_4 = t1284 - expression_135 * groundggp_3;
   const Real groundggj_4 = Real(1.0) - groundggl * groundggk_4;
   const Real groundggt = groundggj * groundggj_4 + groundggj_2 * groundggj_3;
-  closed.y[0] = t640;
-  closed.y[1] = t641;
-  closed.y[2] = state.y[2] + t636;
-  closed.y[3] = t679;
-  closed.y[4] = -t680;
-  closed.y[5] = t681;
-  closed.y[6] = -t682;
-  closed.z[0] = state.z[0] - model.c13 * (t414 * t1236 - groundgy_x * t1232);
-  closed.z[1] = state.z[1] + model.c13 * (groundgo_4 * t1230 - (t415 * t1236 + groundgy_y * t1232));
-  closed.z[2] = state.z[2] + model.c13 * (groundgz_z * t1230 + (groundgo_3 * t1236 + groundgy_z * t1232));
-  closed.z[3] = state.z[3] + model.c19 * (grounds2bn0_x * t1230 - (t453 * t1236 + grounds1bn0_x * t1232));
-  closed.z[4] = state.z[4] + model.c12 * (grounds1bn0_y * t1232 - grounds2bn0_y * t1230);
-  closed.z[5] = state.z[5] - model.c19 * (grounds2bn0_z * t1230 + (t457 * t1236 - grounds1bn0_z * t1232));
-  closed.regularity = -(Real(1.0) / (t594 * (t564 * t582)) * Real(0.5333333333333331));
+  closed.y[0] = t638;
+  closed.y[1] = t639;
+  closed.y[2] = state.y[2] - t634;
+  closed.y[3] = -t677;
+  closed.y[4] = t678;
+  closed.y[5] = -t679;
+  closed.y[6] = t680;
+  closed.z[0] = state.z[0] - model.c13 * (t408 * t1225 + groundgy_x * t1221);
+  closed.z[1] = state.z[1] - model.c13 * (groundgo_4 * t1219 + (t409 * t1225 - groundgy_y * t1221));
+  closed.z[2] = state.z[2] - model.c13 * (groundgz_z * t1219 - (groundgo_3 * t1225 - groundgy_z * t1221));
+  closed.z[3] = state.z[3] - model.c18 * (grounds2bn0_x * t1219 - (t451 * t1225 + grounds1bn0_x * t1221));
+  closed.z[4] = state.z[4] - model.c12 * (grounds1bn0_y * t1221 - grounds2bn0_y * t1219);
+  closed.z[5] = state.z[5] + model.c18 * (grounds2bn0_z * t1219 - (t455 * t1225 + grounds1bn0_z * t1221));
+  closed.regularity = -(Real(1.0) / (t592 * (t562 * t580)) * Real(0.5333333333333331));
   closed.opening = detail::where_negative(groundggj + groundggj_4, Real(1.0)) +
-      (detail::where_negative(groundggt, Real(1.0)) + (groundgm_2 * groundgm_2 + (groundgm * groundgm + (t639
-      * t639 + (t638 * t638 + (t637 * t637 + (t636 * t636 + (t634 * t634 + t635 * t635))))))));
+      (detail::where_negative(groundggt, Real(1.0)) + (groundgm_2 * groundgm_2 + (groundgm * groundgm + (t637
+      * t637 + (t636 * t636 + (t635 * t635 + (t634 * t634 + (t632 * t632 + t633 * t633))))))));
   state = closed;
 }
 
@@ -1550,10 +1535,10 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real expression_12 = expression_9 * expression_11;
   const Real expression_13 = expression_3 * expression_11;
   const Real expression_14 = expression_5 * expression_9 * model.c9;
-  const Real groundg0e_x = groundgs_xx * expression_6 + (groundgs_xz - groundgs_xy * expression_12);
-  const Real groundg0e_y = groundgs_xy * expression_6 - (groundgs_yz + groundgs_yy * expression_12);
-  const Real groundg0u = expression_12 * (groundgs_yz - groundg0e_y) + (groundgs_zz + expression_6 *
-      (groundgs_xz + groundg0e_x));
+  const Real groundg0e_x = groundgs_xy * expression_12 - (groundgs_xz + groundgs_xx * expression_6);
+  const Real groundg0e_y = groundgs_yy * expression_12 + (groundgs_yz - groundgs_xy * expression_6);
+  const Real groundg0u = expression_6 * (groundgs_xz - groundg0e_x) + (groundgs_zz + expression_12 *
+      (groundgs_yz + groundg0e_y));
   const Real groundg0r = detail::square_root(groundg0u);
   const Real groundg0i = Real(1.0) / groundg0r;
   const Real groundg0q_x = groundg0e_x * groundg0i;
@@ -1579,8 +1564,8 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real groundg0a_2 = groundg0j_2 * groundg0d;
   const Real groundg0a_3 = groundg0j_3 * groundg0d;
   const Real groundg0a_4 = groundg0j * groundg0d;
-  const Real groundgc = groundg0f * groundg0a + (state.y[0] - groundg0f_2 * groundg0a_2);
-  const Real groundgc_2 = groundg0f * groundg0a_3 - (state.y[1] + groundg0f_2 * groundg0a_4);
+  const Real groundgc = groundg0f_2 * groundg0a_2 + (state.y[0] - groundg0f * groundg0a);
+  const Real groundgc_2 = groundg0f_2 * groundg0a_4 - (state.y[1] + groundg0f * groundg0a_3);
   const Real expression_15 = model.wave * groundgc;
   Real expression_21, expression_16;
   detail::sine_cosine(expression_15, expression_21, expression_16);
@@ -1595,28 +1580,28 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real expression_26 = expression_23 * expression_25;
   const Real expression_27 = expression_17 * expression_25;
   const Real expression_28 = model.c9 * (expression_19 * expression_23);
-  const Real groundg1e_x = groundgs_xx * expression_20 + (groundgs_xz + groundgs_xy * expression_26);
-  const Real groundg1e_y = groundgs_xy * expression_20 - (groundgs_yz - groundgs_yy * expression_26);
-  const Real groundg1u = expression_26 * (groundgs_yz - groundg1e_y) - (groundgs_zz + expression_20 *
-      (groundgs_xz + groundg1e_x));
-  const Real groundg1r = detail::square_root(-groundg1u);
+  const Real groundg1e_x = groundgs_xy * expression_26 + (groundgs_xz + groundgs_xx * expression_20);
+  const Real groundg1e_y = groundgs_yy * expression_26 - (groundgs_yz - groundgs_xy * expression_20);
+  const Real groundg1u = expression_20 * (groundgs_xz + groundg1e_x) + (groundgs_zz - expression_26 *
+      (groundgs_yz - groundg1e_y));
+  const Real groundg1r = detail::square_root(groundg1u);
   const Real groundg1i = Real(1.0) / groundg1r;
   const Real groundg1q_x = groundg1e_x * groundg1i;
   const Real groundg1q_y = groundg1e_y * groundg1i;
   const Real groundg1l = model.radius * groundg1i;
-  const Real groundg1f = groundgc - (state.y[0] + model.radius * groundg1q_x);
+  const Real groundg1f = model.radius * groundg1q_x + (state.y[0] - groundgc);
   const Real groundg1p = groundgs_xx - groundg1q_x * groundg1q_x;
-  const Real groundg1f_2 = groundgc_2 + (state.y[1] + model.radius * groundg1q_y);
+  const Real groundg1f_2 = model.radius * groundg1q_y + (state.y[1] + groundgc_2);
   const Real groundg1p_2 = groundgs_xy - groundg1q_x * groundg1q_y;
   const Real groundg1p_3 = groundgs_yy - groundg1q_y * groundg1q_y;
-  const Real t161 = expression_27 * groundg1p_2;
-  const Real groundg1k = expression_22 * groundg1p - t161;
+  const Real t160 = expression_27 * groundg1p_2;
+  const Real groundg1k = expression_22 * groundg1p - t160;
   const Real groundg1j = Real(1.0) + groundg1l * groundg1k;
   const Real groundg1k_2 = expression_27 * groundg1p - expression_28 * groundg1p_2;
   const Real groundg1j_2 = groundg1l * groundg1k_2;
   const Real groundg1k_3 = expression_22 * groundg1p_2 - expression_27 * groundg1p_3;
   const Real groundg1j_3 = groundg1l * groundg1k_3;
-  const Real groundg1k_4 = t161 - expression_28 * groundg1p_3;
+  const Real groundg1k_4 = t160 - expression_28 * groundg1p_3;
   const Real groundg1j_4 = Real(1.0) - groundg1l * groundg1k_4;
   const Real groundg1t = groundg1j * groundg1j_4 + groundg1j_2 * groundg1j_3;
   const Real groundg1d = Real(1.0) / groundg1t;
@@ -1624,8 +1609,8 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real groundg1a_2 = groundg1j_2 * groundg1d;
   const Real groundg1a_3 = groundg1j_3 * groundg1d;
   const Real groundg1a_4 = groundg1j * groundg1d;
-  const Real groundgc_3 = groundg1f * groundg1a - (groundgc + groundg1f_2 * groundg1a_2);
-  const Real groundgc_4 = groundg1f * groundg1a_3 - (groundgc_2 - groundg1f_2 * groundg1a_4);
+  const Real groundgc_3 = groundg1f_2 * groundg1a_2 + (groundgc + groundg1f * groundg1a);
+  const Real groundgc_4 = groundg1f_2 * groundg1a_4 - (groundgc_2 + groundg1f * groundg1a_3);
   const Real expression_29 = model.wave * groundgc_3;
   Real expression_35, expression_30;
   detail::sine_cosine(expression_29, expression_35, expression_30);
@@ -1640,37 +1625,37 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real expression_40 = expression_37 * expression_39;
   const Real expression_41 = expression_31 * expression_39;
   const Real expression_42 = model.c9 * (expression_33 * expression_37);
-  const Real groundg2e_x = groundgs_xx * expression_34 + (groundgs_xz + groundgs_xy * expression_40);
-  const Real groundg2e_y = groundgs_xy * expression_34 - (groundgs_yz - groundgs_yy * expression_40);
-  const Real groundg2u = expression_40 * (groundgs_yz - groundg2e_y) - (groundgs_zz + expression_34 *
-      (groundgs_xz + groundg2e_x));
-  const Real groundg2r = detail::square_root(-groundg2u);
+  const Real groundg2e_x = groundgs_xy * expression_40 - (groundgs_xz + groundgs_xx * expression_34);
+  const Real groundg2e_y = groundgs_yy * expression_40 + (groundgs_yz - groundgs_xy * expression_34);
+  const Real groundg2u = expression_34 * (groundgs_xz - groundg2e_x) + (groundgs_zz + expression_40 *
+      (groundgs_yz + groundg2e_y));
+  const Real groundg2r = detail::square_root(groundg2u);
   const Real groundg2i = Real(1.0) / groundg2r;
   const Real groundg2q_x = groundg2e_x * groundg2i;
   const Real groundg2q_y = groundg2e_y * groundg2i;
   const Real groundg2l = model.radius * groundg2i;
-  const Real groundg2f = groundgc_3 + (state.y[0] + model.radius * groundg2q_x);
+  const Real groundg2f = model.radius * groundg2q_x - (state.y[0] - groundgc_3);
   const Real groundg2p = groundgs_xx - groundg2q_x * groundg2q_x;
-  const Real groundg2f_2 = groundgc_4 - (state.y[1] + model.radius * groundg2q_y);
+  const Real groundg2f_2 = model.radius * groundg2q_y - (state.y[1] - groundgc_4);
   const Real groundg2p_2 = groundgs_xy - groundg2q_x * groundg2q_y;
   const Real groundg2p_3 = groundgs_yy - groundg2q_y * groundg2q_y;
-  const Real t242 = expression_41 * groundg2p_2;
-  const Real groundg2k = expression_36 * groundg2p - t242;
-  const Real groundg2j = Real(1.0) - groundg2l * groundg2k;
-  const Real groundg2k_2 = expression_41 * groundg2p - expression_42 * groundg2p_2;
+  const Real t240 = expression_41 * groundg2p_2;
+  const Real groundg2k = expression_36 * groundg2p + t240;
+  const Real groundg2j = Real(1.0) + groundg2l * groundg2k;
+  const Real groundg2k_2 = expression_41 * groundg2p + expression_42 * groundg2p_2;
   const Real groundg2j_2 = groundg2l * groundg2k_2;
-  const Real groundg2k_3 = expression_36 * groundg2p_2 - expression_41 * groundg2p_3;
+  const Real groundg2k_3 = expression_36 * groundg2p_2 + expression_41 * groundg2p_3;
   const Real groundg2j_3 = groundg2l * groundg2k_3;
-  const Real groundg2k_4 = t242 - expression_42 * groundg2p_3;
+  const Real groundg2k_4 = t240 + expression_42 * groundg2p_3;
   const Real groundg2j_4 = Real(1.0) + groundg2l * groundg2k_4;
-  const Real groundg2t = groundg2j * groundg2j_4 + groundg2j_2 * groundg2j_3;
+  const Real groundg2t = groundg2j * groundg2j_4 - groundg2j_2 * groundg2j_3;
   const Real groundg2d = Real(1.0) / groundg2t;
   const Real groundg2a = groundg2j_4 * groundg2d;
   const Real groundg2a_2 = groundg2j_2 * groundg2d;
   const Real groundg2a_3 = groundg2j_3 * groundg2d;
   const Real groundg2a_4 = groundg2j * groundg2d;
-  const Real groundgc_5 = groundg2f * groundg2a - (groundgc_3 - groundg2f_2 * groundg2a_2);
-  const Real groundgc_6 = groundg2f * groundg2a_3 + (groundgc_4 - groundg2f_2 * groundg2a_4);
+  const Real groundgc_5 = groundg2f_2 * groundg2a_2 + (groundgc_3 - groundg2f * groundg2a);
+  const Real groundgc_6 = groundg2f_2 * groundg2a_4 - (groundgc_4 + groundg2f * groundg2a_3);
   const Real expression_43 = model.wave * groundgc_5;
   Real expression_49, expression_44;
   detail::sine_cosine(expression_43, expression_49, expression_44);
@@ -1685,37 +1670,37 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real expression_54 = expression_51 * expression_53;
   const Real expression_55 = expression_45 * expression_53;
   const Real expression_56 = model.c9 * (expression_47 * expression_51);
-  const Real groundg3e_x = groundgs_xx * expression_48 + (groundgs_xz - groundgs_xy * expression_54);
-  const Real groundg3e_y = groundgs_xy * expression_48 - (groundgs_yz + groundgs_yy * expression_54);
-  const Real groundg3u = expression_54 * (groundgs_yz - groundg3e_y) + (groundgs_zz + expression_48 *
-      (groundgs_xz + groundg3e_x));
+  const Real groundg3e_x = groundgs_xy * expression_54 + (groundgs_xz + groundgs_xx * expression_48);
+  const Real groundg3e_y = groundgs_yy * expression_54 - (groundgs_yz - groundgs_xy * expression_48);
+  const Real groundg3u = expression_48 * (groundgs_xz + groundg3e_x) + (groundgs_zz - expression_54 *
+      (groundgs_yz - groundg3e_y));
   const Real groundg3r = detail::square_root(groundg3u);
   const Real groundg3i = Real(1.0) / groundg3r;
   const Real groundg3q_x = groundg3e_x * groundg3i;
   const Real groundg3q_y = groundg3e_y * groundg3i;
   const Real groundg3l = model.radius * groundg3i;
-  const Real groundg3f = groundgc_5 - (state.y[0] + model.radius * groundg3q_x);
+  const Real groundg3f = model.radius * groundg3q_x + (state.y[0] - groundgc_5);
   const Real groundg3p = groundgs_xx - groundg3q_x * groundg3q_x;
-  const Real groundg3f_2 = groundgc_6 - (state.y[1] + model.radius * groundg3q_y);
+  const Real groundg3f_2 = model.radius * groundg3q_y + (state.y[1] + groundgc_6);
   const Real groundg3p_2 = groundgs_xy - groundg3q_x * groundg3q_y;
   const Real groundg3p_3 = groundgs_yy - groundg3q_y * groundg3q_y;
-  const Real t322 = expression_55 * groundg3p_2;
-  const Real groundg3k = expression_50 * groundg3p + t322;
+  const Real t320 = expression_55 * groundg3p_2;
+  const Real groundg3k = expression_50 * groundg3p - t320;
   const Real groundg3j = Real(1.0) + groundg3l * groundg3k;
-  const Real groundg3k_2 = expression_55 * groundg3p + expression_56 * groundg3p_2;
+  const Real groundg3k_2 = expression_55 * groundg3p - expression_56 * groundg3p_2;
   const Real groundg3j_2 = groundg3l * groundg3k_2;
-  const Real groundg3k_3 = expression_50 * groundg3p_2 + expression_55 * groundg3p_3;
+  const Real groundg3k_3 = expression_50 * groundg3p_2 - expression_55 * groundg3p_3;
   const Real groundg3j_3 = groundg3l * groundg3k_3;
-  const Real groundg3k_4 = t322 + expression_56 * groundg3p_3;
-  const Real groundg3j_4 = Real(1.0) + groundg3l * groundg3k_4;
-  const Real groundg3t = groundg3j * groundg3j_4 - groundg3j_2 * groundg3j_3;
+  const Real groundg3k_4 = t320 - expression_56 * groundg3p_3;
+  const Real groundg3j_4 = Real(1.0) - groundg3l * groundg3k_4;
+  const Real groundg3t = groundg3j * groundg3j_4 + groundg3j_2 * groundg3j_3;
   const Real groundg3d = Real(1.0) / groundg3t;
   const Real groundg3a = groundg3j_4 * groundg3d;
   const Real groundg3a_2 = groundg3j_2 * groundg3d;
   const Real groundg3a_3 = groundg3j_3 * groundg3d;
   const Real groundg3a_4 = groundg3j * groundg3d;
-  const Real groundgc_7 = groundg3f * groundg3a - (groundgc_5 + groundg3f_2 * groundg3a_2);
-  const Real groundgc_8 = groundg3f * groundg3a_3 + (groundgc_6 - groundg3f_2 * groundg3a_4);
+  const Real groundgc_7 = groundg3f_2 * groundg3a_2 + (groundgc_5 + groundg3f * groundg3a);
+  const Real groundgc_8 = groundg3f_2 * groundg3a_4 - (groundgc_6 + groundg3f * groundg3a_3);
   const Real expression_57 = model.wave * groundgc_7;
   Real expression_58, expression_63;
   detail::sine_cosine(expression_57, expression_58, expression_63);
@@ -1726,37 +1711,40 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real expression_62 = expression_59 * expression_61;
   const Real expression_64 = model.c6 * (expression_61 * expression_63);
   const Real expression_66 = model.wave * (expression_59 * expression_65);
-  const Real groundgge_x = groundgs_xx * expression_64 + (groundgs_xz + groundgs_xy * expression_66);
-  const Real groundgge_y = groundgs_xy * expression_64 - (groundgs_yz - groundgs_yy * expression_66);
-  const Real groundgge_z = groundgs_xz * expression_64 + (groundgs_zz - groundgs_yz * expression_66);
-  const Real groundggu = expression_64 * groundgge_x + (groundgge_z + expression_66 * groundgge_y);
+  const Real groundgge_x = groundgs_xy * expression_66 - (groundgs_xz + groundgs_xx * expression_64);
+  const Real groundgge_y = groundgs_yy * expression_66 + (groundgs_yz - groundgs_xy * expression_64);
+  const Real groundgge_z = groundgs_yz * expression_66 + (groundgs_zz + groundgs_xz * expression_64);
+  const Real groundggu = expression_66 * groundgge_y + (groundgge_z - expression_64 * groundgge_x);
   const Real groundggr = detail::square_root(groundggu);
   const Real groundgo = Real(1.0) + expression_66 * expression_66;
-  const Real groundgo_2 = groundgo + expression_64 * expression_64;
+  const Real t383 = expression_64 * expression_64;
+  const Real groundgo_2 = groundgo + t383;
   const Real groundgo_3 = Real(1.0) / detail::square_root(groundgo_2);
-  const Real groundgv = expression_64 * (state.y[0] + groundgc_7) - (expression_62 - (expression_66 *
-      (state.y[1] - groundgc_8) + (model.radius * groundggr - state.y[2])));
+  const Real groundgv = state.y[2] - (model.radius * groundggr - (expression_66 * (state.y[1] - groundgc_8) -
+      (expression_62 + expression_64 * (state.y[0] - groundgc_7))));
   const Real g_ground = groundgo_3 * groundgv;
-  const Real t401 = state.y[3] * Real(0.5);
-  const Real t402 = state.y[4] * Real(0.5);
-  const Real t403 = state.y[5] * Real(0.5);
-  const Real t404 = state.y[6] * Real(0.5);
+  const Real t399 = state.y[3] * Real(0.5);
+  const Real t400 = state.y[4] * Real(0.5);
+  const Real t401 = state.y[5] * Real(0.5);
+  const Real t402 = state.y[6] * Real(0.5);
   const Real groundggi = Real(1.0) / groundggr;
-  const Real t408 = Real(2.0) * state.y[3];
-  const Real t415 = groundgo_3 * groundggi * model.c18;
-  const Real t420 = expression_64 * (q0r0_y + q0r0_y) - q0r1_y * (expression_66 + expression_66);
-  const Real t422 = q0r2_y + (q0r2_y - t420);
-  const Real t426 = t415 * (expression_66 * t422);
-  const Real t427 = t415 * (q0r2_y * (expression_64 + expression_64) - expression_64 * t420);
-  const Real t428 = t415 * t422;
-  const Real t437 = q0d1 * t427 - q0d3 * t428;
-  const Real t440 = (q0d3 + q0d3) * t426 + (t408 * t427 + q0d2 * t428);
-  const Real t443 = t426 * (q0d1 + q0d1) - (q0d2 * t427 - t408 * t428);
-  const Real t445 = q0d3 * t427 + q0d1 * t428;
+  const Real t407 = groundgo_3 * groundggi * model.c14;
+  const Real t410 = Real(2.0) * state.y[3];
+  const Real t413 = expression_66 + expression_66;
+  const Real t414 = q0r1_y * t413;
+  const Real t416 = expression_64 + expression_64;
+  const Real t424 = t407 * (q0r2_y * t416 - (t383 * (q0r0_y + q0r0_y) + expression_64 * t414));
+  const Real t425 = t407 * (q0r0_y * t416 + (t414 - (q0r2_y + q0r2_y)));
+  const Real t427 = q0d1 * t425;
+  const Real t428 = q0d3 * t425;
+  const Real t432 = t428 + q0d1 * t424;
+  const Real t437 = t427 - q0d3 * t424;
+  const Real t442 = t413 * t427 - (t410 * t425 + q0d2 * t424);
+  const Real t447 = t413 * t428 - (q0d2 * t425 - t410 * t424);
   const Real q022 = state.y[5] * q0d2;
   const Real q013 = state.y[4] * q0d3;
   const Real q002 = q0d2 * state.y[3];
-  const Real q0r0_x = Real(1.0) - (q033 + q022);
+  const Real q0r0_x = q022 + (q033 - Real(1.0));
   const Real q0r0_z = q013 + q002;
   const Real q0r1_x = q012 + q003;
   const Real q0r1_z = q023 - q001;
@@ -1773,28 +1761,28 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real groundgv_x = model.radius * groundggq_x;
   const Real groundgv_y = model.radius * groundggq_y;
   const Real groundgv_z = model.radius * groundggq_z;
-  const Real t484 = groundgy_x * groundgv_y + groundgy_y * groundgv_x;
-  const Real t488 = groundgy_x * groundgv_z + groundgy_z * groundgv_x;
-  const Real t492 = groundgy_y * groundgv_z - groundgy_z * groundgv_y;
-  const Real grounds1bn0_x = q0r1_x * t488 + (q0r2_x * t484 + q0r0_x * t492);
-  const Real grounds1bn0_y = q0r1_y * t488 - (q0r2_y * t484 + q0r0_y * t492);
-  const Real grounds1bn0_z = q0r1_z * t488 - (q0r2_z * t484 - q0r0_z * t492);
+  const Real t480 = groundgy_x * groundgv_y - groundgy_y * groundgv_x;
+  const Real t484 = groundgy_x * groundgv_z - groundgy_z * groundgv_x;
+  const Real t488 = groundgy_y * groundgv_z - groundgy_z * groundgv_y;
+  const Real grounds1bn0_x = q0r0_x * t488 - (q0r2_x * t480 - q0r1_x * t484);
+  const Real grounds1bn0_y = q0r0_y * t488 + (q0r2_y * t480 + q0r1_y * t484);
+  const Real grounds1bn0_z = q0r0_z * t488 - (q0r2_z * t480 + q0r1_z * t484);
   const Real groundgz_z = expression_66 * groundgo_4;
-  const Real t509 = groundgo_4 * groundgv_z + groundgv_y * groundgz_z;
-  const Real grounds2bn0_x = q0r0_x * t509 - groundgv_x * (q0r1_x * groundgz_z - q0r2_x * groundgo_4);
-  const Real grounds2bn0_y = q0r0_y * t509 + groundgv_x * (q0r1_y * groundgz_z + q0r2_y * groundgo_4);
-  const Real grounds2bn0_z = q0r0_z * t509 - groundgv_x * (q0r1_z * groundgz_z + q0r2_z * groundgo_4);
-  const Real grounds0 = groundgy_y * state.z[1] - (groundgy_x * state.z[0] + (groundgy_z * state.z[2] -
-      (grounds1bn0_x * state.z[3] - (grounds1bn0_y * state.z[4] - grounds1bn0_z * state.z[5]))));
-  const Real grounds1 = groundgz_z * state.z[2] + (groundgo_4 * state.z[1] + (grounds2bn0_x * state.z[3] +
-      (grounds2bn0_y * state.z[4] + grounds2bn0_z * state.z[5])));
-  g[0] = -g_ground;
+  const Real t505 = groundgo_4 * groundgv_z + groundgv_y * groundgz_z;
+  const Real grounds2bn0_x = q0r0_x * t505 + groundgv_x * (q0r1_x * groundgz_z + q0r2_x * groundgo_4);
+  const Real grounds2bn0_y = q0r0_y * t505 + groundgv_x * (q0r1_y * groundgz_z - q0r2_y * groundgo_4);
+  const Real grounds2bn0_z = q0r0_z * t505 - groundgv_x * (q0r1_z * groundgz_z - q0r2_z * groundgo_4);
+  const Real grounds0 = grounds1bn0_z * state.z[5] + (grounds1bn0_y * state.z[4] - (grounds1bn0_x * state.z[3]
+      - (groundgy_z * state.z[2] + (groundgy_x * state.z[0] + groundgy_y * state.z[1]))));
+  const Real grounds1 = grounds2bn0_z * state.z[5] + (grounds2bn0_y * state.z[4] - (grounds2bn0_x * state.z[3]
+      - (groundgo_4 * state.z[1] - groundgz_z * state.z[2])));
+  g[0] = g_ground;
   g[1] = Real(0.0);
   g[2] = Real(0.0);
-  g_rate[0] = -(expression_66 * groundgo_3 * state.z[1] + (expression_64 * groundgo_3 * state.z[0] -
-      (groundgo_3 * state.z[2] - ((t404 * t437 - (t401 * t443 - (t403 * t440 + t402 * t445))) * state.z[3] -
-      (t402 * t437 + (t403 * t443 + (t401 * t440 - t404 * t445))) * state.z[5]))));
-  g_rate[1] = -grounds0;
+  g_rate[0] = (t399 * t447 + (t401 * t442 + (t400 * t432 + t402 * t437))) * state.z[5] - ((t401 * t447 - (t399
+      * t442 - (t402 * t432 - t400 * t437))) * state.z[3] - (groundgo_3 * state.z[2] - (expression_64 *
+      groundgo_3 * state.z[0] - expression_66 * groundgo_3 * state.z[1])));
+  g_rate[1] = grounds0;
   g_rate[2] = grounds1;
 }
 
@@ -2015,7 +2003,8 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real groundggu = expression_67 * groundgge_y + (groundgge_z - expression_64 * groundgge_x);
   const Real groundggr = detail::square_root(groundggu);
   const Real groundgo = Real(1.0) + expression_67 * expression_67;
-  const Real groundgo_2 = groundgo + expression_64 * expression_64;
+  const Real t382 = expression_64 * expression_64;
+  const Real groundgo_2 = groundgo + t382;
   const Real groundgo_3 = Real(1.0) / detail::square_root(groundgo_2);
   const Real t387 = state.y[3] * Real(0.5);
   const Real t388 = state.y[4] * Real(0.5);
@@ -2026,30 +2015,30 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t393 = q0r2_y + q0r2_y;
   const Real groundggi = Real(1.0) / groundggr;
   const Real t395 = Real(0.5) * groundggi;
-  const Real t396 = q0d3 + q0d3;
-  const Real t397 = Real(2.0) * state.y[3];
-  const Real t398 = expression_64 * t391;
-  const Real t400 = expression_64 + expression_64;
-  const Real t401 = expression_64 * expression_67;
-  const Real t403 = model.radius * t395;
-  const Real t404 = groundgo_3 * t403;
-  const Real t405 = t401 + t401;
-  const Real t406 = expression_67 + expression_67;
-  const Real t407 = q0r1_y * t406;
-  const Real t408 = t393 - t407;
-  const Real t409 = t398 - t408;
-  const Real t412 = q0r1_y * t405 + (expression_64 * t398 - q0r2_y * t400);
-  const Real t413 = expression_67 * t409;
-  const Real t414 = t404 * t413;
-  const Real t415 = t404 * t412;
-  const Real t416 = t404 * t409;
-  const Real t417 = q0d1 + q0d1;
-  const Real t425 = q0d1 * t415 - q0d3 * t416;
-  const Real t428 = q0d2 * t416 + (t397 * t415 - t396 * t414);
-  const Real t431 = t397 * t416 - (q0d2 * t415 + t414 * t417);
-  const Real t433 = q0d3 * t415 + q0d1 * t416;
-  const Real t443 = t388 * t433 + (t389 * t428 - (t387 * t431 - t390 * t425));
-  const Real t447 = t390 * t433 - (t387 * t428 + (t389 * t431 + t388 * t425));
+  const Real t396 = model.radius * t395;
+  const Real t397 = groundgo_3 * t396;
+  const Real t398 = q0d3 + q0d3;
+  const Real t399 = Real(2.0) * state.y[3];
+  const Real t400 = expression_64 * expression_67;
+  const Real t402 = expression_67 + expression_67;
+  const Real t404 = q0r1_y * t402;
+  const Real t405 = t400 + t400;
+  const Real t409 = q0r0_y * t405 - (q0r2_y * t402 - expression_67 * t404);
+  const Real t411 = expression_64 + expression_64;
+  const Real t414 = q0r2_y * t411 - (t382 * t391 + q0r1_y * t405);
+  const Real t415 = q0r0_y * t411;
+  const Real t416 = t393 - t404;
+  const Real t417 = t415 - t416;
+  const Real t418 = t397 * t409;
+  const Real t419 = t397 * t414;
+  const Real t420 = t397 * t417;
+  const Real t421 = q0d1 + q0d1;
+  const Real t428 = q0d3 * t420 + q0d1 * t419;
+  const Real t433 = q0d1 * t420 - q0d3 * t419;
+  const Real t438 = t418 * t421 - (t399 * t420 + q0d2 * t419);
+  const Real t443 = t398 * t418 - (q0d2 * t420 - t399 * t419);
+  const Real t447 = t389 * t443 - (t387 * t438 - (t390 * t428 - t388 * t433));
+  const Real t451 = t387 * t443 + (t389 * t438 + (t388 * t428 + t390 * t433));
   const Real q022 = state.y[5] * q0d2;
   const Real q013 = state.y[4] * q0d3;
   const Real q002 = q0d2 * state.y[3];
@@ -2065,49 +2054,49 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real groundgo_4 = Real(1.0) / detail::square_root(groundgo);
   const Real groundgo_5 = groundgo_3 * groundgo_4;
   const Real groundgy_x = groundgo * groundgo_5;
-  const Real groundgy_y = t401 * groundgo_5;
+  const Real groundgy_y = t400 * groundgo_5;
   const Real groundgy_z = expression_64 * groundgo_5;
   const Real groundgv_x = model.radius * groundggq_x;
   const Real groundgv_y = model.radius * groundggq_y;
   const Real groundgv_z = model.radius * groundggq_z;
-  const Real t472 = groundgy_x * groundgv_y - groundgy_y * groundgv_x;
-  const Real t476 = groundgy_x * groundgv_z - groundgy_z * groundgv_x;
-  const Real t480 = groundgy_y * groundgv_z - groundgy_z * groundgv_y;
-  const Real grounds1bn0_x = q0r0_x * t480 - (q0r2_x * t472 - q0r1_x * t476);
-  const Real grounds1bn0_y = q0r0_y * t480 + (q0r2_y * t472 + q0r1_y * t476);
-  const Real grounds1bn0_z = q0r0_z * t480 - (q0r2_z * t472 + q0r1_z * t476);
+  const Real t476 = groundgy_x * groundgv_y - groundgy_y * groundgv_x;
+  const Real t480 = groundgy_x * groundgv_z - groundgy_z * groundgv_x;
+  const Real t484 = groundgy_y * groundgv_z - groundgy_z * groundgv_y;
+  const Real grounds1bn0_x = q0r0_x * t484 - (q0r2_x * t476 - q0r1_x * t480);
+  const Real grounds1bn0_y = q0r0_y * t484 + (q0r2_y * t476 + q0r1_y * t480);
+  const Real grounds1bn0_z = q0r0_z * t484 - (q0r2_z * t476 + q0r1_z * t480);
   const Real groundgz_z = expression_67 * groundgo_4;
-  const Real t497 = groundgo_4 * groundgv_z + groundgv_y * groundgz_z;
-  const Real t501 = q0r1_x * groundgz_z + q0r2_x * groundgo_4;
-  const Real grounds2bn0_x = q0r0_x * t497 + groundgv_x * t501;
-  const Real t507 = q0r1_y * groundgz_z - q0r2_y * groundgo_4;
-  const Real grounds2bn0_y = q0r0_y * t497 + groundgv_x * t507;
-  const Real t513 = q0r1_z * groundgz_z - q0r2_z * groundgo_4;
-  const Real grounds2bn0_z = q0r0_z * t497 - groundgv_x * t513;
-  const Real t522 = groundgo_3 * groundgo_3;
-  const Real t526 = grounds1bn0_x * model.c11;
-  const Real t527 = grounds1bn0_z * model.c11;
-  const Real t530 = t443 * t526 - t447 * t527;
-  const Real t539 = grounds2bn0_x * model.c11;
-  const Real t540 = grounds2bn0_y * model.c12;
-  const Real t541 = grounds2bn0_z * model.c11;
-  const Real t544 = t443 * t539 - t447 * t541;
-  const Real t548 = groundgo_4 * groundgo_4;
-  const Real t560 = Real(1.0) / (groundgo_2 * t522 * model.c13 + model.c11 * (t443 * t443 + t447 * t447) +
+  const Real t501 = groundgo_4 * groundgv_z + groundgv_y * groundgz_z;
+  const Real t505 = q0r1_x * groundgz_z + q0r2_x * groundgo_4;
+  const Real grounds2bn0_x = q0r0_x * t501 + groundgv_x * t505;
+  const Real t511 = q0r1_y * groundgz_z - q0r2_y * groundgo_4;
+  const Real grounds2bn0_y = q0r0_y * t501 + groundgv_x * t511;
+  const Real t517 = q0r1_z * groundgz_z - q0r2_z * groundgo_4;
+  const Real grounds2bn0_z = q0r0_z * t501 - groundgv_x * t517;
+  const Real t526 = groundgo_3 * groundgo_3;
+  const Real t530 = grounds1bn0_x * model.c11;
+  const Real t531 = grounds1bn0_z * model.c11;
+  const Real t534 = t447 * t530 + t451 * t531;
+  const Real t543 = grounds2bn0_x * model.c11;
+  const Real t544 = grounds2bn0_y * model.c12;
+  const Real t545 = grounds2bn0_z * model.c11;
+  const Real t548 = t447 * t543 + t451 * t545;
+  const Real t552 = groundgo_4 * groundgo_4;
+  const Real t564 = Real(1.0) / (groundgo_2 * t526 * model.c13 + model.c11 * (t447 * t447 + t451 * t451) +
       Real(4.9999999999999995e-11));
-  const Real t561 = t530 * t560;
-  const Real t572 = t544 * t560;
-  const Real t576 = t530 * t572 - (grounds1bn0_z * t541 + (grounds1bn0_x * t539 + grounds1bn0_y * t540));
-  const Real t578 = Real(1.0) / (model.c13 * (groundgy_z * groundgy_z + (groundgy_x * groundgy_x + groundgy_y
-      * groundgy_y)) - (t530 * t561 - (grounds1bn0_z * t527 + (grounds1bn0_x * t526 + grounds1bn0_y *
+  const Real t565 = t534 * t564;
+  const Real t576 = t548 * t564;
+  const Real t580 = t534 * t576 - (grounds1bn0_z * t545 + (grounds1bn0_x * t543 + grounds1bn0_y * t544));
+  const Real t582 = Real(1.0) / (model.c13 * (groundgy_z * groundgy_z + (groundgy_x * groundgy_x + groundgy_y
+      * groundgy_y)) - (t534 * t565 - (grounds1bn0_z * t531 + (grounds1bn0_x * t530 + grounds1bn0_y *
       grounds1bn0_y * model.c12)) - Real(1.5000000000000002e-10)));
-  const Real t579 = t576 * t578;
-  const Real t590 = Real(1.0) / (t576 * t579 + (t544 * t572 - (grounds2bn0_z * t541 + (grounds2bn0_y * t540 +
-      (grounds2bn0_x * t539 + model.c13 * (groundgo * t548))))) - Real(2.5e-10));
-  const Real t595 = t390 * state.z[5] + (t388 * state.z[3] + t389 * state.z[4]);
-  const Real t600 = t389 * state.z[5] + (t387 * state.z[3] - t390 * state.z[4]);
-  const Real t605 = t388 * state.z[5] - (t390 * state.z[3] + t387 * state.z[4]);
-  const Real t610 = t387 * state.z[5] - (t389 * state.z[3] - t388 * state.z[4]);
+  const Real t583 = t580 * t582;
+  const Real t594 = Real(1.0) / (t580 * t583 + (t548 * t576 - (grounds2bn0_z * t545 + (grounds2bn0_y * t544 +
+      (grounds2bn0_x * t543 + model.c13 * (groundgo * t552))))) - Real(2.5e-10));
+  const Real t599 = t390 * state.z[5] + (t388 * state.z[3] + t389 * state.z[4]);
+  const Real t604 = t389 * state.z[5] + (t387 * state.z[3] - t390 * state.z[4]);
+  const Real t609 = t388 * state.z[5] - (t390 * state.z[3] + t387 * state.z[4]);
+  const Real t614 = t387 * state.z[5] - (t389 * state.z[3] - t388 * state.z[4]);
   const Real expression_68 = model.c7 * (expression_58 * expression_61);
   const Real expression_69 = expression_63 * expression_66;
   const Real expression_70 = model.c9 * (expression_59 * expression_61);
@@ -2115,14 +2104,14 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real groundggp = groundgs_xx - groundggq_x * groundggq_x;
   const Real groundggp_2 = groundgs_xy - groundggq_x * groundggq_y;
   const Real groundggp_3 = groundgs_yy - groundggq_y * groundggq_y;
-  const Real t624 = expression_69 * groundggp_2;
-  const Real groundggk = expression_68 * groundggp + t624;
+  const Real t628 = expression_69 * groundggp_2;
+  const Real groundggk = expression_68 * groundggp + t628;
   const Real groundggj = Real(1.0) + groundggl * groundggk;
   const Real groundggk_2 = expression_69 * groundggp + expression_70 * groundggp_2;
   const Real groundggj_2 = groundggl * groundggk_2;
   const Real groundggk_3 = expression_68 * groundggp_2 + expression_69 * groundggp_3;
   const Real groundggj_3 = groundggl * groundggk_3;
-  const Real groundggk_4 = t624 + expression_70 * groundggp_3;
+  const Real groundggk_4 = t628 + expression_70 * groundggp_3;
   const Real groundggj_4 = Real(1.0) + groundggl * groundggk_4;
   const Real groundggt = groundggj * groundggj_4 - groundggj_2 * groundggj_3;
   const Real groundggd = Real(1.0) / groundggt;
@@ -2130,108 +2119,93 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real groundgga_2 = groundggj_2 * groundggd;
   const Real groundgga_3 = groundggj_3 * groundggd;
   const Real groundgga_4 = groundggj * groundggd;
-  const Real t648 = groundggi * groundggi;
-  const Real t649 = t417 * t600;
-  const Real t651 = t397 * t600;
-  const Real t653 = q0d2 * t600 - q0d1 * t605;
-  const Real t654 = q0d3 * t605;
-  const Real t655 = q0d3 * t595;
-  const Real t656 = q0d1 * t595;
-  const Real t657 = t396 * t610;
-  const Real t658 = t397 * t610;
-  const Real t660 = t658 - (t653 + t655);
-  const Real t661 = q0d2 * t610;
-  const Real t664 = t661 + (t651 - (t654 + t656));
-  const Real t665 = t649 + t657;
-  const Real t670 = q0r0_y * t665 - q0r1_y * t660;
-  const Real t676 = q0r2_y * t660 - q0r0_y * t664;
-  const Real t678 = q0r2_y * t665 + q0r1_y * t664;
-  const Real t679 = t393 * t664;
-  const Real t681 = t676 - (t398 * t660 - expression_67 * t670);
-  const Real t683 = t678 - (t407 * t665 + expression_64 * t670);
-  const Real t693 = (expression_64 * (t676 + t681) + (t679 - expression_67 * (t678 + t683))) * (t395 * t648);
-  const Real t699 = state.z[0] - model.radius * (groundggi * t681 + groundgge_x * t693);
-  const Real t701 = state.z[1] - model.radius * (groundggi * t683 + groundgge_y * t693);
-  const Real t704 = groundgga * t699 - groundgga_2 * t701;
-  const Real t707 = groundgga_3 * t699 - groundgga_4 * t701;
-  const Real t709 = Real(2.0) * t415;
-  const Real t710 = Real(2.0) * t416;
-  const Real t711 = Real(0.5) * t431;
-  const Real t712 = Real(0.5) * t428;
-  const Real t713 = Real(0.5) * t433;
-  const Real t714 = Real(0.5) * t425;
-  const Real t718 = t414 * Real(4.0);
-  const Real t727 = q0r2_x * state.z[3] - (q0r2_z * state.z[5] - q0r2_y * state.z[4]);
-  const Real t731 = q0r1_x * state.z[3] - (q0r1_y * state.z[4] - q0r1_z * state.z[5]);
-  const Real t737 = q0r0_y * state.z[4] + (q0r0_z * state.z[5] - q0r0_x * state.z[3]);
-  const Real t756 = t605 * t709;
-  const Real t757 = t605 * t710;
-  const Real t759 = t600 * t710;
-  const Real t760 = t605 * (q0d2 + q0d2);
-  const Real t764 = t595 * t709;
-  const Real t766 = t397 * t605 + q0d2 * t595;
-  const Real t787 = q0d3 * t600 + q0d1 * t610;
-  const Real t795 = t766 + t787;
-  const Real t796 = groundgv_x * groundgz_z;
-  const Real t802 = groundgo_4 * groundgv_x;
-  const Real t806 = groundgv_y * t737 - (state.z[2] + groundgv_x * t731);
-  const Real t821 = expression_68 * t704 - expression_69 * t707;
-  const Real t823 = expression_69 * t704 - expression_70 * t707;
-  const Real t830 = t400 * t660 + t391 * t821;
-  const Real t838 = groundgs_xy * t823 + (t681 + groundgs_xx * t821);
-  const Real t841 = groundgs_yy * t823 + (t683 + groundgs_xy * t821);
-  const Real t846 = groundgs_yz * t823 - (groundgs_xz * t821 - (expression_67 * t678 - (t679 + expression_64 *
-      t676)));
-  const Real t848 = t406 * t823;
-  const Real t850 = expression_67 * t821 - expression_64 * t823;
-  const Real t853 = t406 * t665 + t392 * t823;
-  const Real t860 = Real(0.5) * (t548 * (groundgo_4 * t848));
-  const Real t876 = t409 * t664 - (t413 * t665 - t412 * t660);
-  const Real t888 = t395 * (expression_67 * t841 - (expression_64 * t838 - (groundgge_x * t821 + (t846 +
-      groundgge_y * t823))));
-  const Real t894 = t648 * t888;
-  const Real t901 = groundggl * t838 - model.radius * (groundgge_x * t894);
-  const Real t904 = groundggl * t841 - model.radius * (groundgge_y * t894);
-  const Real t905 = model.radius * (groundggi * t846 - groundgge_z * t894);
-  const Real t908 = Real(0.5) * ((t400 * t821 - t848) * (groundgo_3 * t522));
-  const Real t912 = groundgo_3 * t860 - groundgo_4 * t908;
+  const Real t661 = t421 * t604 + t398 * t614;
+  const Real t668 = q0d3 * t599 + (q0d2 * t604 - (q0d1 * t609 + t399 * t614));
+  const Real t672 = q0d2 * t614 - (q0d3 * t609 - (t399 * t604 - q0d1 * t599));
+  const Real t674 = q0r0_y * t661 + q0r1_y * t668;
+  const Real t678 = t395 * (groundggi * groundggi);
+  const Real t680 = q0r2_y * t668 + q0r0_y * t672;
+  const Real t682 = q0r2_y * t661 + q0r1_y * t672;
+  const Real t683 = t393 * t672;
+  const Real t685 = t682 - (t404 * t661 + expression_64 * t674);
+  const Real t689 = t680 - (expression_67 * t674 + t415 * t668);
+  const Real t697 = t678 * (expression_64 * (t680 + t689) - (t683 - expression_67 * (t682 + t685)));
+  const Real t703 = state.z[1] - model.radius * (groundggi * t685 - groundgge_y * t697);
+  const Real t705 = state.z[0] + model.radius * (groundggi * t689 + groundgge_x * t697);
+  const Real t708 = groundgga * t705 - groundgga_2 * t703;
+  const Real t711 = groundgga_3 * t705 - groundgga_4 * t703;
+  const Real t712 = Real(2.0) * t420;
+  const Real t713 = Real(2.0) * t419;
+  const Real t714 = Real(0.5) * t428;
+  const Real t715 = Real(0.5) * t433;
+  const Real t716 = Real(0.5) * t438;
+  const Real t717 = Real(0.5) * t443;
+  const Real t732 = t609 * t712;
+  const Real t733 = t609 * t713;
+  const Real t737 = t599 * t712;
+  const Real t739 = t418 * Real(4.0);
+  const Real t741 = t599 * t713;
+  const Real t762 = expression_68 * t708 - expression_69 * t711;
+  const Real t764 = expression_69 * t708 - expression_70 * t711;
+  const Real t769 = t411 * t762;
+  const Real t787 = t402 * t764;
+  const Real t790 = expression_67 * t762 - expression_64 * t764;
+  const Real t798 = Real(0.5) * (groundgo_4 * t552 * t787);
+  const Real t802 = Real(0.5) * (t526 * (groundgo_3 * (t769 - t787)));
+  const Real t810 = t411 * t668;
+  const Real t811 = t392 * t764 + t402 * t661;
+  const Real t815 = q0r2_y * state.z[4];
+  const Real t816 = q0r1_y * state.z[4];
+  const Real t819 = t815 - (q0r2_z * state.z[5] - q0r2_x * state.z[3]);
+  const Real t821 = t816 - (q0r1_z * state.z[5] + q0r1_x * state.z[3]);
+  const Real t823 = q0r0_y * state.z[4] + (q0r0_z * state.z[5] - q0r0_x * state.z[3]);
+  const Real t835 = groundgv_x * t816 - (state.z[3] * (q0r1_x * groundgv_x) + (state.z[5] * (q0r1_z *
+      groundgv_x) + (state.z[2] - groundgv_y * t823)));
+  const Real t840 = groundgv_z * t823 - (groundgv_x * t815 + (q0r2_x * (groundgv_x * state.z[3]) - (state.z[1]
+      + state.z[5] * (q0r2_z * groundgv_x))));
+  const Real t843 = groundgo_4 * t802 - groundgo_3 * t798;
+  const Real t898 = groundgs_xx * t762 - (t689 - groundgs_xy * t764);
+  const Real t900 = groundgs_yy * t764 + (t685 + groundgs_xy * t762);
+  const Real t908 = expression_64 * t680 + (expression_67 * t682 + (groundgs_yz * t764 - (t683 + groundgs_xz *
+      t762)));
+  const Real t912 = t908 - (expression_64 * t898 - (expression_67 * t900 + (groundgge_x * t762 + groundgge_y *
+      t764)));
+  const Real t919 = t678 * t912;
+  const Real t925 = groundggl * t898 - model.radius * (groundgge_x * t919);
+  const Real t928 = groundggl * t900 - model.radius * (groundgge_y * t919);
+  const Real t929 = model.radius * (groundggi * t908 - groundgge_z * t919);
   const Real rww00 = state.z[4] * state.z[5];
   const Real rww02 = state.z[3] * state.z[4];
-  const Real t972 = rww00 * model.c20;
-  const Real t973 = rww02 * model.c20;
-  const Real t1015 = t600 * (t600 * t718 - (t756 + (t756 + (state.z[5] * t714 - (state.z[3] * t713 -
-      state.z[4] * t712))))) + (t595 * (t759 + (t759 + (state.z[5] * t712 + (state.z[3] * t711 - state.z[4] *
-      t714)))) + (t610 * (t764 + (t757 + (t610 * t718 + (t757 + (state.z[5] * t713 + (state.z[4] * t711 +
-      (state.z[3] * t714 + t764))))))) - (t447 * t973 - (t443 * t972 - (groundgo_3 * model.c15 - (t404 * t660
-      * (t392 * t850 - (t405 * t665 - (expression_64 * t830 + (t400 * t664 - (t393 - t398) * t821)))) - (t404
-      * t665 * (t391 * t850 - (expression_67 * t853 - (t408 * t823 + (t405 * t660 + t406 * t664)))) -
-      (state.z[1] * (groundgo_3 * t823 + expression_67 * t908) - ((t403 * t876 - (state.z[2] - expression_64 *
-      state.z[0])) * t908 - (model.radius * (groundgo_3 * t876 * (groundggi * t395 * t888)) - ((t853 -
-      (Real(2.0) * t664 + t830)) * (t404 * t664) - (t605 * (state.z[5] * t711 - (state.z[3] * t712 +
-      state.z[4] * t713)) + state.z[0] * (groundgo_3 * t821)))))))))))));
-  const Real t1017 = t660 * (t480 * state.z[4]) + t472 * state.z[3] * t795;
-  const Real t1028 = t561 * t1015 - (grounds1bn0_z * t973 + (grounds1bn0_x * t972 + (groundgy_z * model.c15 +
-      ((groundgy_x * t731 - groundgy_y * t737) * t905 + ((groundgy_z * t737 - groundgy_x * t727) * t904 +
-      ((groundgy_y * t727 - groundgy_z * t731) * t901 - (t1017 + (t806 * (groundgo_5 * t821 + expression_64 *
-      t912) + ((groundgv_y * t727 + (state.z[0] - groundgv_z * t731)) * (groundgo_5 * t848 - groundgo * t912)
-      + ((groundgv_x * t727 - (state.z[1] + groundgv_z * t737)) * (t401 * t912 + groundgo_5 * t850) -
-      t1017))))))))));
-  const Real t1043 = t590 * (t579 * t1028 + (t572 * t1015 - (grounds2bn0_z * t973 + (grounds2bn0_x * t972 -
-      (groundgz_z * model.c15 + (t806 * (groundgo_4 * t823 - expression_67 * t860) + (t737 * (groundgo_4 *
-      t905 - (groundgv_z * t860 - groundgz_z * t904)) + (state.z[4] * (t507 * t901 + (q0r2_y * groundgv_x *
-      t860 - (t664 * t802 - (t665 * t796 - t497 * t660)))) - (state.z[3] * (t501 * t901 + (t795 * t802 -
-      (groundgv_x * (q0r2_x * t860) - ((t658 + (t653 - t655)) * t796 + t497 * (t657 - t760))))) + (state.z[1]
-      * t860 + state.z[5] * (t513 * t901 + (t497 * (t766 - t787) + (q0r2_z * groundgv_x * t860 + ((t661 -
-      (t654 + (t651 - t656))) * t796 - (t649 - t760) * t802))))))))))))));
-  const Real t1045 = t578 * t1028 - t579 * t1043;
-  const Real t1049 = t572 * t1043 - (t560 * t1015 + t561 * t1045);
-  const Real t1050 = Real(4.9999999999999995e-11) * t1049;
-  const Real t1054 = Real(1.5000000000000002e-10) * t1045 - t561 * t1050;
-  const Real t1061 = t590 * (t579 * t1054 - (Real(2.5e-10) * t1043 + t572 * t1050));
-  const Real t1063 = t578 * t1054 - t579 * t1061;
-  lambda[0] = -(t572 * t1061 - (t561 * t1063 - (t1049 + t560 * t1050)));
-  lambda[1] = t1045 + t1063;
-  lambda[2] = -(t1043 + t1061);
+  const Real t939 = rww00 * model.c19;
+  const Real t940 = rww02 * model.c19;
+  const Real t980 = t604 * (t737 + (t733 + (state.z[4] * t717 + (state.z[3] * t715 + (state.z[5] * t714 +
+      (t737 + (t733 + t604 * t739))))))) - (t614 * (t741 - (t732 + (t614 * t739 + (t732 + (state.z[5] * t715 -
+      (state.z[3] * t714 + (state.z[4] * t716 + t741))))))) + (t451 * t940 + (t447 * t939 + (groundgo_3 *
+      model.c15 + ((t414 * t668 + (t417 * t672 - t409 * t661)) * (t396 * t802 - t912 * (groundgo_3 * t678) *
+      model.c14) - (t668 * (t397 * (expression_64 * t810 - (t391 * t769 + (t392 * t790 - (t405 * t661 + (t393
+      * t762 - t411 * t672)))))) + (t397 * t661 * (expression_67 * t811 - (t416 * t764 + (t402 * t672 - (t405
+      * t668 - t391 * t790)))) - ((t810 + (t811 - (t391 * t762 + Real(2.0) * t672))) * (t397 * t672) +
+      (state.z[5] * (t609 * t716) - (state.z[1] * (groundgo_3 * t764 + expression_67 * t802) + ((state.z[2] -
+      expression_64 * state.z[0]) * t802 + (state.z[0] * (groundgo_3 * t762) - (t609 * (state.z[4] * t715 -
+      state.z[3] * t717) + t599 * (state.z[5] * t717 - (state.z[4] * t714 - state.z[3] * t716)))))))))))))));
+  const Real t990 = t565 * t980 + (grounds1bn0_z * t940 + (grounds1bn0_x * t939 + (groundgy_z * model.c15 +
+      ((groundgy_z * t823 - groundgy_x * t819) * t928 + ((groundgy_z * t821 + groundgy_y * t819) * t925 -
+      ((groundgy_x * t821 + groundgy_y * t823) * t929 + ((groundgo_5 * t787 + groundgo * t843) * (groundgv_y *
+      t819 + (state.z[0] + groundgv_z * t821)) + (t835 * (groundgo_5 * t762 - expression_64 * t843) + t840 *
+      (t400 * t843 - groundgo_5 * t790)))))))));
+  const Real t1004 = t594 * (t583 * t990 + (t576 * t980 + (grounds2bn0_z * t940 + (grounds2bn0_x * t939 -
+      (groundgz_z * model.c15 + (groundgz_z * t823 * t928 + ((t511 * state.z[4] - (t517 * state.z[5] + t505 *
+      state.z[3])) * t925 + (groundgo_4 * t823 * t929 - (t798 * t840 - t835 * (groundgo_4 * t764 -
+      expression_67 * t798))))))))));
+  const Real t1006 = t582 * t990 - t583 * t1004;
+  const Real t1010 = t576 * t1004 - (t564 * t980 + t565 * t1006);
+  const Real t1011 = Real(4.9999999999999995e-11) * t1010;
+  const Real t1015 = Real(1.5000000000000002e-10) * t1006 - t565 * t1011;
+  const Real t1022 = t594 * (t583 * t1015 - (Real(2.5e-10) * t1004 + t576 * t1011));
+  const Real t1024 = t582 * t1015 - t583 * t1022;
+  lambda[0] = -(t576 * t1022 - (t565 * t1024 - (t1010 + t564 * t1011)));
+  lambda[1] = -(t1006 + t1024);
+  lambda[2] = t1004 + t1022;
 }
 
 template <class Real> JOURDAIN_FUNCTION

@@ -245,7 +245,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real zw_2 = state.z[2] * state.z[2];
   const Real rdf2_x = h2b_x * zw_2;
   const Real rdf2_y = h2b_y * zw_2;
-  const Real t43 = t33 * (state.z[2] * (c2 * state.z[0] + s2 * state.z[1]));
+  const Real t43 = t33 * (state.z[2] * (s2 * state.z[1] + c2 * state.z[0]));
   const Real t46 = t43 + Real(4.25e-11) * (t33 * t43);
   const Real t51 = t23 * (rdf2_x + t20 * rdf2_y - t25 * t46);
   const Real t54 = t19 * (rdf2_y + c2 * t46) - t20 * t51;
@@ -356,7 +356,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t24 = s2 - c2 * t20;
   const Real t32 = Real(1.0) / (t24 * (t24 / (Real(5.0) - model.c2 * (h2b_y * h2b_y) + t14 * t20)) - c2 * (c2
       * t19) + Real(4.25e-11));
-  const Real t37 = t32 * (state.z[2] * (c2 * state.z[0] + s2 * state.z[1]));
+  const Real t37 = t32 * (state.z[2] * (s2 * state.z[1] + c2 * state.z[0]));
   lambda[0] = -(t37 + Real(4.25e-11) * (t32 * t37));
 }
 

@@ -377,7 +377,7 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[1]) noexcept 
   const Real t26 = t22 * state.z[0];
   const Real t27 = Real(0.045) * state.z[0];
   const Real w1_z = state.z[0] + t26;
-  const Real t31 = state.z[0] * (s0 * t27);
+  const Real t31 = t27 * (s0 * state.z[0]);
   const Real t32 = t27 * (c0 * state.z[0]);
   const Real t37 = t21 * (t31 + w1_z * (piston_pinbx_y * w1_z));
   const Real h1b_x = c1 * Real(0.02475);
@@ -430,7 +430,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t26 = t21 * state.z[0];
   const Real t27 = Real(0.045) * state.z[0];
   const Real w1_z = state.z[0] + t26;
-  const Real t31 = state.z[0] * (s0 * t27);
+  const Real t31 = t27 * (s0 * state.z[0]);
   const Real t32 = t27 * (c0 * state.z[0]);
   const Real t36 = t20 * (t31 + w1_z * (piston_pinbx_y * w1_z));
   const Real h1b_x = c1 * Real(0.02475);
@@ -473,7 +473,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t26 = t22 * state.z[0];
   const Real t27 = Real(0.045) * state.z[0];
   const Real w1_z = state.z[0] + t26;
-  const Real t31 = state.z[0] * (s0 * t27);
+  const Real t31 = t27 * (s0 * state.z[0]);
   const Real t32 = t27 * (c0 * state.z[0]);
   const Real t37 = t21 * (t31 + w1_z * (piston_pinbx_y * w1_z));
   const Real t42 = t37 - t22 * zdot[0];
@@ -613,7 +613,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t26 = t21 * state.z[0];
   const Real t27 = Real(0.045) * state.z[0];
   const Real w1_z = state.z[0] + t26;
-  const Real ra1o_y = state.z[0] * (s0 * t27);
+  const Real ra1o_y = t27 * (s0 * state.z[0]);
   const Real t32 = t27 * (c0 * state.z[0]);
   const Real t36 = t20 * (ra1o_y + w1_z * (piston_pinbx_y * w1_z));
   const Real t39 = piston_pinbx_y * t36 + t21 * t32;

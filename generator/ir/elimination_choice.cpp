@@ -44,6 +44,33 @@ std::vector<std::uint32_t> prefix_first(std::size_t inner, std::size_t prefix) {
   return order;
 }
 
+/// An order and what it takes.
+struct Tried {
+  EliminationTrials::Order order;
+  std::size_t operations = 0;
+};
+
+bool takes_less(const Tried& a, const Tried& b) { return a.operations < b.operations; }
+
+/// Of all orders those that take least are improved by moving vertices about, and of these again those that take least.
+EliminationTrials::Order best_of(EliminationTrials& trials, std::vector<Tried> tried, bool is_large) {
+  struct Round {
+    std::size_t orders, work;  ///< for each, in products of partial derivatives
+  };
+  const std::vector<Round> some = {{8, 1'000'000}, {3, 4'000'000}, {1, 32'000'000}}, few = {{1, 4'000'000}};
+  const auto sort = [&tried] { std::stable_sort(tried.begin(), tried.end(), takes_less); };
+  sort();
+  for (const Round& round : is_large ? few : some) {
+    tried.resize(std::min(tried.size(), round.orders));
+    for (Tried& t : tried) {
+      t.order = trials.improved(std::move(t.order), round.work);
+      t.operations = trials.operations(t.order);
+    }
+    sort();
+  }
+  return std::move(tried.front().order);
+}
+
 }  // namespace
 
 bool takes_by_signs(const Program& program) {
@@ -76,7 +103,8 @@ std::vector<std::uint32_t> elimination_order(const Program& program, std::size_t
                                              const Surroundings& surroundings) {
   constexpr std::size_t kLarge = 5000;  // values from which on few choices are tried
   const auto share = [inner](double of) { return static_cast<std::size_t>(of * static_cast<double>(inner)); };
-  if (surroundings.forward) return prefix_first(inner, share(*surroundings.forward));
+  const OrderChoice& choice = surroundings.choice;
+  if (choice.forward) return prefix_first(inner, share(*choice.forward));
   const std::vector<Residue> values = residues(program, surroundings.leaf);
   std::vector<std::vector<EliminationTrials::Edge>> edges(operands.size());
   const std::vector<bool> fixed = fixed_values(program, surroundings.is_fixed);
@@ -84,28 +112,26 @@ std::vector<std::uint32_t> elimination_order(const Program& program, std::size_t
   for (std::size_t v = 0; v < edges.size(); ++v)
     for (const auto& [operand, partial] : operands[v]) {
       const Residue value = values[partial.value.value];
-      edges[v].push_back({static_cast<std::uint32_t>(operand), partial.negative ? -value : value,
+      edges[v].push_back({partial.negative ? -value : value, static_cast<std::uint32_t>(operand),
                           fixed[partial.value.value]});
       is_taken[partial.value.value] = true;
     }
   std::vector<Residue> known = computed(program, values, std::move(is_taken));
   for (const Fingerprint& value : surroundings.values) known.push_back(value.at[0]);
-  EliminationTrials trials(std::move(edges), inner, known);
+  EliminationTrials trials(std::move(edges), inner, known, choice.draws);
   const bool is_simple = takes_by_signs(program), is_large = inner > kLarge;
   using Shares = std::vector<double>;
-  EliminationTrials::Order best;
-  std::size_t fewest = 0;
+  std::vector<Tried> tried;
   for (const double late : is_simple || is_large ? Shares{1} : Shares{1, 0.9, 0.85, 0.8})
     for (const double forward :
          is_large ? Shares{0, 0.15, 0.5, 1} : Shares{0, 0.05, 0.1, 0.15, 0.2, 0.25, 0.5, 1}) {
       EliminationTrials::Order order =
           is_simple ? prefix_first(inner, share(forward)) : trials.order(share(forward), share(late));
-      const std::size_t operations = trials.operations(order);
-      if (!best.empty() && operations >= fewest) continue;
-      best = std::move(order);
-      fewest = operations;
+      const auto is_it = [&order](const Tried& t) { return t.order == order; };
+      if (std::none_of(tried.begin(), tried.end(), is_it)) tried.push_back({order, trials.operations(order)});
     }
-  return is_simple ? best : trials.improved(std::move(best), surroundings.work);
+  if (is_simple) return std::min_element(tried.begin(), tried.end(), takes_less)->order;
+  return best_of(trials, std::move(tried), is_large);
 }
 
 }  // namespace jourdain::ir

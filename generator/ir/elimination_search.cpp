@@ -12,16 +12,6 @@ namespace {
 
 bool is_unit(Residue value) { return value == Residue(1) || value == -Residue(1); }
 
-/// Draws that are the same in every run.
-class Draws {
- public:
-  std::size_t below(std::size_t bound) { return scrambled(kSeed, ++drawn_) % bound; }
-
- private:
-  static constexpr std::uint64_t kSeed = 0x656c696d696e6174u;
-  std::uint64_t drawn_ = 0;
-};
-
 /// No edges lead to vertices from which no row is reached.
 void drop_dead_ends(std::vector<std::vector<EliminationTrials::Edge>>& operands, std::size_t inner) {
   std::vector<bool> is_alive(operands.size(), false);
@@ -33,9 +23,30 @@ void drop_dead_ends(std::vector<std::vector<EliminationTrials::Edge>>& operands,
 
 }  // namespace
 
+/// The same in every run.
+class EliminationTrials::Draws {
+ public:
+  explicit Draws(std::uint64_t draws) : seed_(kSeed + draws) {}
+
+  std::size_t below(std::size_t bound) { return scrambled(seed_, ++drawn_) % bound; }
+
+  void shuffle(std::vector<std::size_t>& list) {
+    for (std::size_t k = list.size(); k > 1; --k) std::swap(list[k - 1], list[below(k)]);
+  }
+
+ private:
+  static constexpr std::uint64_t kSeed = 0x656c696d696e6176u;
+  std::uint64_t seed_, drawn_ = 0;
+};
+
 EliminationTrials::EliminationTrials(std::vector<std::vector<Edge>> operands, std::size_t inner,
-                                     const std::vector<Residue>& known)
-    : inner_(inner), operands_trial_(operands.size()), users_trial_(operands.size()), slots_(1024) {
+                                     const std::vector<Residue>& known, std::uint64_t draws)
+    : inner_(inner),
+      draws_(draws),
+      operands_trial_(operands.size()),
+      users_trial_(operands.size()),
+      slots_(1024),
+      places_(operands.size()) {
   drop_dead_ends(operands, inner);
   given_.users.resize(operands.size());
   for (std::uint32_t v = 0; v < operands.size(); ++v)
@@ -49,11 +60,11 @@ void EliminationTrials::start(const Order& order) {
   kept_ = now_ = given_;
   changed_operands_.clear();
   changed_users_.clear();
-  for (Slot& slot : slots_) slot.last = kNowhere;
+  for (Slot& slot : slots_) slot.last = kNoPosition;
   ending_.assign(order.size(), 0);
   sweep_ = trial_ + 1;
   trial_ = sweep_ + 1;
-  window_end_ = kNowhere;
+  window_end_ = kNoPosition;
   begin_trial(Purpose::kRecord);
   for (position_ = 0; position_ < order.size(); ++position_) remove(order[position_]);
 }
@@ -93,7 +104,7 @@ std::vector<std::uint32_t>& EliminationTrials::users_to_change(std::uint32_t ver
 void EliminationTrials::make_room() {
   std::vector<Slot> live;
   std::copy_if(slots_.begin(), slots_.end(), std::back_inserter(live), [this](const Slot& slot) {
-    return slot.stamp == kKnown || slot.stamp == sweep_ || slot.stamp == trial_ || slot.last != kNowhere;
+    return slot.stamp == kKnown || slot.stamp == sweep_ || slot.stamp == trial_ || slot.last != kNoPosition;
   });
   std::size_t size = 1024;
   while (size < 4 * live.size()) size *= 2;
@@ -107,15 +118,15 @@ EliminationTrials::Slot& EliminationTrials::slot_of(std::uint64_t value) {
   while (slots_[k].stamp != 0 && slots_[k].value != value) k = (k + 1) & (slots_.size() - 1);
   if (slots_[k].stamp == 0) {
     ++used_;
-    slots_[k] = {value, kUnknown, kNowhere};
+    slots_[k] = {value, kUnknown, kNoPosition};
   }
   return slots_[k];
 }
 
 void EliminationTrials::forget_last(Slot& slot) {
-  if (slot.last == kNowhere) return;
+  if (slot.last == kNoPosition) return;
   --ending_[slot.last];
-  slot.last = kNowhere;
+  slot.last = kNoPosition;
 }
 
 void EliminationTrials::compute(Residue value) {
@@ -123,7 +134,7 @@ void EliminationTrials::compute(Residue value) {
   if (2 * used_ > slots_.size()) make_room();
   Slot& slot = slot_of(value.is_negative() ? (-value).value() : value.value());
   if (slot.stamp == kKnown || slot.stamp == sweep_) return;
-  const bool is_later = slot.last != kNowhere && slot.last > window_end_;
+  const bool is_later = slot.last != kNoPosition && slot.last > window_end_;
   switch (purpose_) {
     case Purpose::kTry:
       if (slot.stamp != trial_ && !is_later) ++operations_;
@@ -145,42 +156,49 @@ void EliminationTrials::compute(Residue value) {
   }
 }
 
-void EliminationTrials::connect(const Edge& edge, std::uint32_t user) {
-  std::vector<Edge>& edges = operands_to_change(user);
-  for (Edge& known : edges)
-    if (known.operand == edge.operand) {
-      known.partial = known.partial + edge.partial;
-      known.fixed = known.fixed && edge.fixed;
-      if (!known.fixed) compute(known.partial);
-      if (known.partial.is_zero()) {
-        known = edges.back();
-        edges.pop_back();
-      }
-      return;
-    }
-  edges.push_back(edge);
-  users_to_change(edge.operand).push_back(user);
+/// Adds an edge to those that lead to `user`, whose places are known.
+void EliminationTrials::connect(const Edge& edge, std::uint32_t user, std::vector<Edge>& edges) {
+  Place& place = places_[edge.operand];
+  if (place.stamp != places_stamp_) {
+    place = {places_stamp_, static_cast<std::uint32_t>(edges.size())};
+    edges.push_back(edge);
+    users_to_change(edge.operand).push_back(user);
+    return;
+  }
+  Edge& known = edges[place.at];
+  known.partial = known.partial + edge.partial;
+  known.fixed = known.fixed && edge.fixed;
+  if (!known.fixed) compute(known.partial);
+  if (!known.partial.is_zero()) return;
+  places_[edges.back().operand].at = place.at;
+  place.stamp = 0;
+  known = edges.back();
+  edges.pop_back();
 }
 
 void EliminationTrials::remove(std::uint32_t vertex) {
-  std::vector<std::uint32_t> users;
-  users.swap(users_to_change(vertex));
+  removed_users_.clear();
+  removed_users_.swap(users_to_change(vertex));
+  removed_operands_.clear();
+  removed_operands_.swap(operands_to_change(vertex));
   work_ += kRemoval;
-  std::vector<Edge> operands;
-  operands.swap(operands_to_change(vertex));
-  for (const std::uint32_t user : users) {
+  for (const std::uint32_t user : removed_users_) {
+    const std::vector<Edge>& present = now_.operands[user];
+    const auto found =
+        std::find_if(present.begin(), present.end(), [&](const Edge& e) { return e.operand == vertex; });
+    if (found == present.end()) continue;
+    const auto at = static_cast<std::size_t>(found - present.begin());
     std::vector<Edge>& edges = operands_to_change(user);
-    const auto edge =
-        std::find_if(edges.begin(), edges.end(), [&](const Edge& e) { return e.operand == vertex; });
-    if (edge == edges.end()) continue;
-    const Edge outer = *edge;
-    *edge = edges.back();
+    const Edge outer = edges[at];
+    edges[at] = edges.back();
     edges.pop_back();
-    work_ += operands.size();
-    for (const Edge& inner : operands) {
-      const Edge product{inner.operand, outer.partial * inner.partial, outer.fixed && inner.fixed};
+    work_ += removed_operands_.size();
+    ++places_stamp_;
+    for (std::uint32_t k = 0; k < edges.size(); ++k) places_[edges[k].operand] = {places_stamp_, k};
+    for (const Edge& inner : removed_operands_) {
+      const Edge product{outer.partial * inner.partial, inner.operand, outer.fixed && inner.fixed};
       if (!product.fixed && !is_unit(outer.partial) && !is_unit(inner.partial)) compute(product.partial);
-      connect(product, user);
+      connect(product, user, edges);
     }
   }
 }
@@ -248,54 +266,112 @@ std::size_t EliminationTrials::operations(const Order& order) {
 
 /// Orders of the same vertices lead to the same graph. So what follows a part that was reordered computes what it did,
 /// and what the part computes counts only where nothing after it computes the same.
-bool EliminationTrials::takes_at_most(std::size_t most, const Order& order, std::size_t first,
-                                      std::size_t last) {
-  window_end_ = last;
+bool EliminationTrials::takes_at_most(std::size_t most, const Order& part, std::size_t last) {
+  window_end_ = static_cast<std::uint32_t>(last);
   begin_trial(Purpose::kTry);
-  for (std::size_t k = first; k <= last && operations_ <= most; ++k) remove(order[k]);
+  for (std::size_t k = 0; k < part.size() && operations_ <= most; ++k) remove(part[k]);
   return operations_ <= most;
 }
 
-void EliminationTrials::replace(Order& order, const Order& by, std::size_t first, std::size_t last) {
-  window_end_ = last;
+void EliminationTrials::replace(Order& order, const Order& by, std::size_t first) {
+  const std::size_t end = first + by.size();
+  window_end_ = static_cast<std::uint32_t>(end - 1);
   begin_trial(Purpose::kForget);
-  for (std::size_t k = first; k <= last; ++k) remove(order[k]);
-  order = by;
+  for (std::size_t k = first; k < end; ++k) remove(order[k]);
+  std::copy(by.begin(), by.end(), order.begin() + static_cast<std::ptrdiff_t>(first));
   begin_trial(Purpose::kRecord);
-  for (position_ = first; position_ <= last; ++position_) remove(order[position_]);
+  for (std::size_t k = first; k < end; ++k) {
+    position_ = static_cast<std::uint32_t>(k);
+    remove(order[k]);
+  }
 }
 
 EliminationTrials::Order EliminationTrials::improved(Order order, std::size_t work) {
-  constexpr std::size_t kSweeps = 24, kTrials = 2;
-  const std::size_t n = order.size();
-  std::vector<std::size_t> position(inner_, kNowhere);
-  Draws draws;
+  constexpr std::size_t kPatience = 4;      // sweeps that have to save
+  constexpr double kSaving = 0.003;         // of the operations
+  constexpr std::size_t kLittle = 100'000;  // work that is always spent
+  if (order.size() < 2) return order;
+  Order best = order;
+  Draws draws(draws_);
   work_ = 0;
-  for (std::size_t sweep = 0; sweep < kSweeps && work_ < work && n > 1; ++sweep) {
-    start(order);
-    for (std::size_t k = 0; k < n; ++k) position[order[k]] = k;
-    for (std::size_t first = 0; first + 1 < n && work_ < work; ++first) {
-      for (std::size_t trial = 0; trial < kTrials; ++trial) {
-        begin_trial(Purpose::kTry);
-        const std::vector<std::uint32_t> near = neighbours(order[first]);
-        if (near.empty()) break;
-        const std::size_t last = position[near[draws.below(near.size())]];
-        Order other = order;
-        const auto at = [&](std::size_t k) { return other.begin() + static_cast<std::ptrdiff_t>(k); };
-        std::rotate(at(first), draws.below(2) == 0 ? at(first + 1) : at(last), at(last + 1));
-        const auto most =
-            std::accumulate(ending_.begin() + static_cast<std::ptrdiff_t>(first),
-                            ending_.begin() + static_cast<std::ptrdiff_t>(last + 1), std::size_t{0});
-        if (!takes_at_most(most, other, first, last)) continue;
-        replace(order, other, first, last);
-        for (std::size_t k = first; k <= last; ++k) position[order[k]] = k;
-      }
-      begin_trial(Purpose::kKeep);
-      remove(order[first]);
-      keep_changes();
-    }
+  for (std::vector<std::size_t> fewest{operations(order)}; work_ < work;) {
+    sweep(order = regrouped(order, draws), draws, work);
+    const std::size_t count = operations(order);
+    if (count < fewest.back()) best = order;
+    fewest.push_back(std::min(count, fewest.back()));
+    if (fewest.size() <= kPatience || work_ < kLittle) continue;
+    const auto before = static_cast<double>(fewest[fewest.size() - 1 - kPatience]);
+    if (static_cast<double>(fewest.back()) >= (1 - kSaving) * before) break;
   }
-  return order;
+  return best;
+}
+
+/// What a step changes is read by those of its vertex' neighbours alone, and to what other steps compute it matters
+/// only which term a sum takes first. So each step may wait until just before the first of those: then few others are
+/// in between, where moves are tried.
+EliminationTrials::Order EliminationTrials::regrouped(const Order& order, Draws& draws) {
+  const std::size_t n = order.size();
+  const std::vector<std::size_t> position = positions(order);
+  std::vector<std::vector<std::size_t>> earlier(n);  // neighbours that leave before
+  std::vector<std::size_t> later(n, 0);              // how many leave after it
+  start({});
+  begin_trial(Purpose::kTry);
+  for (std::size_t k = 0; k < n; ++k) {
+    for (const std::uint32_t v : neighbours(order[k])) {
+      earlier[position[v]].push_back(k);
+      ++later[k];
+    }
+    remove(order[k]);
+  }
+  std::vector<std::size_t> ready;  // all that leave after them are placed
+  for (std::size_t k = 0; k < n; ++k)
+    if (later[k] == 0) ready.push_back(k);
+  Order result;
+  while (!ready.empty()) {
+    const std::size_t k = ready.back();
+    ready.pop_back();
+    result.push_back(order[k]);
+    draws.shuffle(earlier[k]);
+    for (const std::size_t e : earlier[k])
+      if (--later[e] == 0) ready.push_back(e);
+  }
+  std::reverse(result.begin(), result.end());
+  return result;
+}
+
+void EliminationTrials::sweep(Order& order, Draws& draws, std::size_t work) {
+  // Most moves of links change nothing: where there are many vertices, one of so many links is moved.
+  constexpr std::size_t kTrials = 2, kMany = 500, kLinks = 8;
+  const bool is_large = order.size() > kMany;
+  std::vector<std::size_t> position = positions(order);
+  start(order);
+  for (std::size_t first = 0; first + 1 < order.size() && work_ < work; ++first) {
+    for (std::size_t trial = 0; trial < kTrials; ++trial) {
+      begin_trial(Purpose::kTry);
+      const std::vector<std::uint32_t> near = neighbours(order[first]);
+      if (near.empty() || (is_large && is_link(order[first]) && draws.below(kLinks) > 0)) break;
+      std::size_t last = position[near[draws.below(near.size())]];
+      if (draws.below(3) == 0)
+        for (const std::uint32_t v : near) last = std::min(last, position[v]);
+      const auto at = [](auto& list, std::size_t k) { return list.begin() + static_cast<std::ptrdiff_t>(k); };
+      Order part(at(order, first), at(order, last + 1));
+      std::rotate(part.begin(), draws.below(2) == 0 ? part.begin() + 1 : part.end() - 1, part.end());
+      const auto most = std::accumulate(at(ending_, first), at(ending_, last + 1), std::size_t{0});
+      if (!takes_at_most(most, part, last)) continue;
+      replace(order, part, first);
+      for (std::size_t k = first; k <= last; ++k) position[order[k]] = k;
+    }
+    begin_trial(Purpose::kKeep);
+    remove(order[first]);
+    keep_changes();
+  }
+}
+
+/// By vertex, where it leaves.
+std::vector<std::size_t> EliminationTrials::positions(const Order& order) const {
+  std::vector<std::size_t> result(inner_, kNowhere);
+  for (std::size_t k = 0; k < order.size(); ++k) result[order[k]] = k;
+  return result;
 }
 
 /// Inner vertices that an edge joins with one.

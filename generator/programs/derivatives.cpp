@@ -52,12 +52,12 @@ enum class Way {
 /// One program under construction.
 class Assembly {
  public:
-  Assembly(const DerivativeSources& sources, DerivativeTerms terms, Way way, std::optional<double> forward)
+  Assembly(const DerivativeSources& sources, DerivativeTerms terms, Way way, const ir::OrderChoice& choice)
       : sources_(sources),
         constrained_(way == Way::kEquations && sources.constrained ? &*sources.constrained : nullptr),
         way_(way),
         terms_(terms),
-        forward_(forward),
+        choice_(choice),
         columns_{sources.facts.velocities.size(), sources.facts.states.size(), sources.facts.carried.size(),
                  sources.facts.inputs.size(), sources.facts.time.any()} {}
 
@@ -187,14 +187,14 @@ class Assembly {
   /// Nothing but how an order is chosen.
   ir::Surroundings alone() const {
     ir::Surroundings result;
-    result.forward = forward_;
+    result.choice = choice_;
     return result;
   }
 
   /// What is here already, and what stands for accelerations and factors.
   ir::Surroundings surroundings() const {
     ir::Surroundings result = ir::within(builder_.program(), leaf_values());
-    result.forward = forward_;
+    result.choice = choice_;
     return result;
   }
 
@@ -336,7 +336,7 @@ class Assembly {
   const ConstrainedMotion* constrained_;
   Way way_;
   DerivativeTerms terms_;
-  std::optional<double> forward_;
+  ir::OrderChoice choice_;
   Columns columns_;
   Builder builder_;
   Column zdot_, factors_;
@@ -353,8 +353,8 @@ namespace {
 
 Program derivative_program(const DerivativeSources& sources, FunctionId function, DerivativeTerms terms,
                            Way way) {
-  return passes::cheapest([&](const ir::Surroundings& by) {
-    Assembly assembly(sources, terms, way, by.forward);
+  return passes::cheapest([&](const ir::OrderChoice& by) {
+    Assembly assembly(sources, terms, way, by);
     if (function == FunctionId::kResidualDerivatives) return assembly.residual_derivatives();
     if (function == FunctionId::kForwardDynamicsDerivatives) return assembly.forward_dynamics_derivatives();
     JD_CHECK(function == FunctionId::kLinearize, "no derivatives for '{}'", name_of(function));

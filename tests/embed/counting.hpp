@@ -1,6 +1,10 @@
 // A number type that counts its operations; emitted code is instantiated with it.
 #pragma once
 
+#include <array>
+#include <functional>
+#include <type_traits>
+
 #include "ir/program.hpp"
 
 namespace jourdain::tests {
@@ -47,5 +51,53 @@ Counting exp(Counting a);
 Counting tanh(Counting a);
 Counting atan(Counting a);
 Counting fabs(Counting a);
+
+/// Operations that one operation on lanes does besides the first.
+inline std::size_t counted_with_others = 0;
+
+/// N numbers that are computed with at once.
+template <std::size_t N>
+struct CountingLanes {
+  std::array<Counting, N> lanes;
+
+  CountingLanes() = default;
+  template <class... Each, class = std::enable_if_t<sizeof...(Each) == N>>
+  CountingLanes(const Each&... each) : lanes{each...} {}
+  const Counting& operator[](int lane) const { return lanes[static_cast<std::size_t>(lane)]; }
+
+  friend CountingLanes operator+(const CountingLanes& a, const CountingLanes& b) {
+    return at_once(a, b, std::plus<>());
+  }
+  friend CountingLanes operator-(const CountingLanes& a, const CountingLanes& b) {
+    return at_once(a, b, std::minus<>());
+  }
+  friend CountingLanes operator*(const CountingLanes& a, const CountingLanes& b) {
+    return at_once(a, b, std::multiplies<>());
+  }
+  friend CountingLanes operator/(const CountingLanes& a, const CountingLanes& b) {
+    return at_once(a, b, std::divides<>());
+  }
+  friend CountingLanes operator+(const CountingLanes& a, const Counting& b) { return a + all(b); }
+  friend CountingLanes operator-(const CountingLanes& a, const Counting& b) { return a - all(b); }
+  friend CountingLanes operator*(const CountingLanes& a, const Counting& b) { return a * all(b); }
+  friend CountingLanes operator/(const CountingLanes& a, const Counting& b) { return a / all(b); }
+  friend CountingLanes operator+(const Counting& a, const CountingLanes& b) { return all(a) + b; }
+  friend CountingLanes operator-(const Counting& a, const CountingLanes& b) { return all(a) - b; }
+  friend CountingLanes operator*(const Counting& a, const CountingLanes& b) { return all(a) * b; }
+  friend CountingLanes operator/(const Counting& a, const CountingLanes& b) { return all(a) / b; }
+
+ private:
+  static CountingLanes all(const Counting& value) {
+    CountingLanes result;
+    result.lanes.fill(value);
+    return result;
+  }
+  template <class Operation>
+  static CountingLanes at_once(CountingLanes a, const CountingLanes& b, Operation operation) {
+    for (std::size_t k = 0; k < N; ++k) a.lanes[k] = operation(a.lanes[k], b.lanes[k]);
+    counted_with_others += N - 1;
+    return a;
+  }
+};
 
 }  // namespace jourdain::tests

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -16,6 +17,16 @@ struct glider::Functions<jourdain::tests::Counting> {
   Counting lift(const Counting& incidence) const noexcept { return incidence; }
   Counting drag(const Counting& incidence) const noexcept { return incidence; }
 };
+
+/// So that operations on lanes are counted as such.
+#define JOURDAIN_COUNT_LANES(name)                             \
+  template <int N>                                             \
+  struct name::detail::LanesOf<N, jourdain::tests::Counting> { \
+    typedef jourdain::tests::CountingLanes<N> Type;            \
+  };
+JOURDAIN_COUNT_LANES(quadruped)
+JOURDAIN_COUNT_LANES(standing_quadruped)
+#undef JOURDAIN_COUNT_LANES
 
 namespace jourdain::tests {
 namespace {
@@ -73,6 +84,33 @@ TEST(Operations, AreThoseOfTheManifest) {
       EXPECT_EQ(s["arithmetic"], c.arithmetic()) << model << " " << function;
     }
   }
+}
+
+/// How many operations go with others, as the manifest says it, of those that it counts.
+template <class Model>
+void expect_lanes_of_the_manifest(const std::string& name) {
+  std::ifstream file(fmt::format("{}/{}/{}.json", JOURDAIN_EMITTED, name, name));
+  const nlohmann::json manifest = nlohmann::json::parse(file), &said = manifest["assumptions"];
+  const Model model;
+  Results<Model> results;
+  std::string sentence;
+  visit_functions(model, initial_state(model), typename Model::Input{}, results,
+                  [&](const std::string& function, auto&& call) {
+                    if (function != "forward_dynamics") return;
+                    counted = {};
+                    counted_with_others = 0;
+                    call();
+                    sentence = fmt::format(
+                        "limbs that are alike are computed at once, as lanes of vectors: {} of {} "
+                        "operations of forward_dynamics go with others (--no-lanes: one after the other)",
+                        counted_with_others, counted.arithmetic());
+                  });
+  EXPECT_NE(std::find(said.begin(), said.end(), sentence), said.end()) << sentence << "\n" << said;
+}
+
+TEST(Operations, OnLanesAreThoseOfTheManifest) {
+  expect_lanes_of_the_manifest<::quadruped::Model<Counting>>("quadruped");
+  expect_lanes_of_the_manifest<::standing_quadruped::Model<Counting>>("standing_quadruped");
 }
 
 TEST(Operations, StayAtTheBestThatWasReached) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -31,9 +32,9 @@ Signed second_operand(Builder& builder, Function function) {
   return builder.literal(support::number_of_array(std::vector<double>{0.5, -1, 2, 0.25}));
 }
 
-Surroundings with_work(std::size_t work) {
+Surroundings with_forward(std::optional<double> forward) {
   Surroundings surroundings;
-  surroundings.work = work;
+  surroundings.choice.forward = forward;
   return surroundings;
 }
 
@@ -202,7 +203,8 @@ TEST(Functions, AreEnclosed) {
 
 /// f = x where d < 0 else 0 for an x that has no value, nor derivatives, where it is not taken.
 TEST(Functions, TakeNothingOfDerivativesThatDoNotExist) {
-  for (const std::size_t work : {0, 1, 100, 10000}) {
+  using Forward = std::optional<double>;
+  for (const Forward forward : {Forward{}, Forward{0}, Forward{0.3}, Forward{0.7}, Forward{1}}) {
     Builder b;
     const Signed y = b.leaf(LeafKind::kPosition, 0), one = b.literal(1);
     const Signed root = b.unary(Op::kSqrt, b.multiply(y, b.literal(3)));
@@ -214,13 +216,13 @@ TEST(Functions, TakeNothingOfDerivativesThatDoNotExist) {
         b.multiply(b.add(b.function(Function::kWhereNegative, -y, b.multiply(root, y)),
                          b.function(Function::kWhereNegative, b.subtract(one, y), b.divide(y, root))),
                    b.add(y, b.unary(Op::kSin, y)))};
-    const JacobianEntries J = differentiate(b, values, {{y, 0, one}}, {}, with_work(work));
+    const JacobianEntries J = differentiate(b, values, {{y, 0, one}}, {}, with_forward(forward));
     for (std::size_t row = 0; row < values.size(); ++row) {
       const auto it = J.find({row, 0});
       b.output("J", int(row), 0, it == J.end() ? b.literal(0) : it->second);
     }
     const Program program = b.finish("J");
-    for (const double slope : at(program, -2.0, 0.0)) EXPECT_EQ(slope, 0) << work;
+    for (const double slope : at(program, -2.0, 0.0)) EXPECT_EQ(slope, 0) << forward.value_or(-1);
     EXPECT_NEAR(at(program, 2.0, 0.0)[0], 0.5 * std::sqrt(3 / 2.0), 1e-15);
   }
 }

@@ -18,10 +18,10 @@ struct RowPrograms {
 
 /// ("G", row, velocity), ("g_t", row), as in ConstraintPrograms.
 ir::Program differentiated_jacobian(const model::Tangent& tangent, const RowPrograms& rows,
-                                    const ir::Surroundings& surroundings);
+                                    const ir::OrderChoice& choice);
 
 /// ("rate", row) and ("gamma", row), every row.
 ir::Program differentiated_rates(const model::Tangent& tangent, const RowPrograms& rows,
-                                 const ir::Surroundings& surroundings);
+                                 const ir::OrderChoice& choice);
 
 }  // namespace jourdain::loops
