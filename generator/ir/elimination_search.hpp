@@ -34,8 +34,8 @@ class EliminationTrials {
 
   std::size_t operations(const Order& order);
 
-  /// Moves vertices before or after neighbours, at random but the same in every run with the same `draws`, and keeps what takes no more
-  /// operations. Ends when a few sweeps save little, or after about `work` products.
+  /// Moves vertices before or after neighbours, at random but the same in every run with the same `draws`, and keeps
+  /// what takes no more operations. Ends when a few sweeps save little, or after about `work` products.
   Order improved(Order order, std::size_t work);
 
  private:
