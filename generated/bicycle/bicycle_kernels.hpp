@@ -260,12 +260,11 @@ Model<Real>::Model(const Parameters& parameters) noexcept {
   c25 = r_steer_x - Real(0.3090169943749474) * r_front_z;
   c26 = r_steer_z + Real(0.9510565162951535) * r_front_z;
   c29 = Real(1.0) / S2b_zz;
-  c30 = Real(2.0) * front_radius;
-  c31 = rear_radius * Real(0.5);
-  c32 = Real(0.5) * front_radius;
-  const Real t133 = d_steer + r_front_z_2;
-  c33 = expression_2 - Real(0.3090169943749474) * t133;
-  c34 = Real(0.9510565162951535) * t133;
+  c30 = rear_radius * Real(0.5);
+  c31 = Real(0.5) * front_radius;
+  const Real t132 = d_steer + r_front_z_2;
+  c32 = expression_2 - Real(0.3090169943749474) * t132;
+  c33 = Real(0.9510565162951535) * t132;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -932,55 +931,56 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t1141 = t49 * state.z[5] + (t47 * state.z[3] - t50 * state.z[4]);
   const Real t1146 = t48 * state.z[5] - (t50 * state.z[3] + t47 * state.z[4]);
   const Real t1151 = t47 * state.z[5] - (t49 * state.z[3] - t48 * state.z[4]);
-  const Real t1162 = rear_contactc_z * state.z[5];
-  const Real t1164 = model.rear_radius * state.z[4];
-  const Real t1165 = state.z[4] + state.z[6];
-  const Real t1167 = Real(2.0) * state.y[3];
-  const Real t1170 = t1141 * (q0d1 + q0d1);
-  const Real t1176 = q0d3 * t1141 + q0d1 * t1151;
-  const Real t1180 = q0d2 * t1136;
-  const Real t1182 = t1151 * t1167 - q0d3 * t1136;
-  const Real t1184 = Real(0.9510565162951535) * state.z[7];
-  const Real t1185 = front_contactbx3_x * Real(0.3090169943749474);
-  const Real t1186 = front_contactbx3_x * Real(0.9510565162951535);
-  const Real t1199 = c2 * Real(0.9510565162951535);
-  const Real t1200 = c2 * Real(0.3090169943749474);
-  const Real t1210 = Real(0.3090169943749474) * state.z[7];
-  const Real t1215 = q0r0_y * state.z[5] - q0r0_z * state.z[4];
-  const Real t1227 = front_contactbd2p_x * state.z[8] - (state.z[3] + t1210);
-  const Real t1228 = state.z[4] + c2 * state.z[8];
-  const Real t1229 = state.z[5] + t1184;
-  const Real t1230 = front_contactbd2p_z * state.z[8] + t1229;
-  const Real t1240 = front_contactbx2p_z * state.z[4] + front_contactbx3_x * t1229;
-  const Real t1245 = front_contactbx2p_z * state.z[3] + (front_contactbx3_y * state.z[7] + front_contactbx2p_x
-      * state.z[5]);
-  const Real t1248 = front_contactbx3_x * state.z[3] + (state.z[7] * t1185 - front_contactbx2p_x *
-      state.z[4]);
-  const Real t1253 = t70 * (t55 * front_contactc_z) - (t72 + t72);
-  const Real t1262 = q0r2_y * t1228 - (q0r2_z * t1230 + q0r2_x * t1227);
-  const Real t1266 = t72 * t1262;
-  const Real t1277 = front_contactc_z * t1230 - front_contactbd2p_z * t1266;
-  const Real t1280 = t1146 * t1167;
-  const Real t1282 = t1280 + (t1176 + t1180);
-  const Real t1284 = q0d2 * t1141 - q0d1 * t1146;
-  const Real t1286 = t1280 - (t1176 - t1180);
-  const Real t1287 = t1182 - t1284;
-  const Real t1288 = t1182 + t1284;
-  const Real t1289 = model.rear_radius * state.z[3];
-  const Real t1290 = rear_contactc_z * state.z[3];
-  const Real t1293 = c2 * t1266 - front_contactc_z * t1228;
-  const Real t1295 = t51 * t53;
-  const Real t1300 = t52 * rear_contactc_z * t1295 - (t59 + t59);
-  const Real t1316 = q0r2_x * state.z[3] - (q0r2_z * state.z[5] - q0r2_y * t1165);
-  const Real t1319 = rear_contactc_z * t1165 + t59 * t1316;
-  const Real t1325 = front_contactbd2p_x * t1266 - front_contactc_z * t1227;
-  const Real t1338 = t79 * state.z[3] + q0r2_x * state.z[5];
-  const Real t1385 = q0d3 * t1146 - (q0d2 * t1151 - (t1141 * t1167 - q0d1 * t1136));
-  const Real t1411 = t1170 - t1146 * (q0d2 + q0d2);
-  const Real t1412 = t1170 + t1151 * (q0d3 + q0d3);
-  const Real t1417 = front_contactbd2p_z * t1411 + (c2 * t1338 + (t69 * state.z[7] + front_contactbd2p_x *
-      t1282));
-  const Real t1435 = t81 * t1411;
+  const Real t1173 = state.z[4] + c2 * state.z[8];
+  const Real t1174 = Real(2.0) * state.y[3];
+  const Real t1185 = q0d1 * t1146 - q0d2 * t1141;
+  const Real t1187 = t1141 * t1174 - q0d1 * t1136;
+  const Real t1189 = t1146 * t1174 + q0d2 * t1136;
+  const Real t1192 = q0d3 * t1146 - q0d2 * t1151;
+  const Real t1194 = q0d3 * t1141 + q0d1 * t1151;
+  const Real t1196 = q0d3 * t1136 - t1151 * t1174;
+  const Real t1197 = t1185 - t1196;
+  const Real t1198 = t1185 + t1196;
+  const Real t1200 = rear_contactc_z * state.z[5];
+  const Real t1203 = state.z[4] + state.z[6];
+  const Real t1204 = t51 * t53;
+  const Real t1205 = t51 * model.rear_radius;
+  const Real t1209 = t52 * t1205 - t52 * rear_contactc_z * t1204;
+  const Real t1212 = rear_contactc_z * state.z[3];
+  const Real t1222 = q0r2_y * t1203 - (q0r2_z * state.z[5] - q0r2_x * state.z[3]);
+  const Real t1224 = model.rear_radius * state.z[4];
+  const Real t1225 = model.rear_radius * state.z[3];
+  const Real t1228 = rear_contactc_z * t1203 + t59 * t1222;
+  const Real t1237 = q0r0_z * state.z[4] - q0r0_y * state.z[5];
+  const Real t1244 = Real(0.9510565162951535) * state.z[7] + (state.z[5] + front_contactbd2p_z * state.z[8]);
+  const Real t1251 = t70 * (t55 * front_contactc_z) - (t72 + t72);
+  const Real t1255 = front_contactbd2p_x * state.z[8] - (state.z[3] + Real(0.3090169943749474) * state.z[7]);
+  const Real t1263 = q0r2_y * t1173 - (q0r2_z * t1244 + q0r2_x * t1255);
+  const Real t1265 = t72 * t1263;
+  const Real t1274 = q0r1_x * state.z[5] - q0r1_z * state.z[3];
+  const Real t1283 = front_contactc_z * t1173 - c2 * t1265;
+  const Real t1286 = c2 * front_contacts2bf2_y + s2 * q0r1_y;
+  const Real t1294 = front_contactbx3_x * state.z[7];
+  const Real t1295 = Real(0.9510565162951535) * t1294;
+  const Real t1297 = Real(0.3090169943749474) * t1294;
+  const Real t1299 = t1295 + (front_contactbx2p_z * state.z[4] + front_contactbx3_x * state.z[5]);
+  const Real t1301 = front_contactbx3_y * state.z[7] + (front_contactbx2p_x * state.z[5] + front_contactbx2p_z
+      * state.z[3]);
+  const Real t1303 = t1297 - (front_contactbx2p_x * state.z[4] - front_contactbx3_x * state.z[3]);
+  const Real t1309 = front_contactbd2p_x * t1265 - front_contactc_z * t1255;
+  const Real t1314 = t1189 + t1194;
+  const Real t1315 = t1189 - t1194;
+  const Real t1317 = front_contactbd2p_z * t1265 - front_contactc_z * t1244;
+  const Real t1339 = t81 * state.z[7];
+  const Real t1345 = Real(0.9510565162951535) * (t1314 * t1339);
+  const Real t1366 = t1187 - t1192;
+  const Real t1369 = t1146 * (q0d2 + q0d2) - t1141 * (q0d1 + q0d1);
+  const Real t1382 = q0r2_x * state.z[4] - q0r2_y * state.z[3];
+  const Real t1384 = Real(0.3090169943749474) * (t1339 * t1382);
+  const Real t1389 = Real(2.0) * t58 + t1205 * (t52 * t53 * t1204);
+  const Real t1409 = t1187 + t1192;
+  const Real t1414 = c2 * t1366 + (front_contactbd2p_z * t1382 - (t69 * state.z[7] + front_contactbd2p_x *
+      t1314));
   const Real w2p_y = Real(0.3090169943749474) * state.z[5] - Real(0.9510565162951535) * state.z[3];
   const Real w2p_z = Real(0.3090169943749474) * state.z[3] + Real(0.9510565162951535) * state.z[5];
   const Real w2_z = state.z[7] + w2p_z;
@@ -1031,122 +1031,118 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real rf0_z = rf2p_z - (state.z[5] * ruh0 - h2c_z * ruw0);
   const Real tau_2_0 = input.u[0] - (rdn3_y + (w2p_y * rKx2 - (h2b_y * ra2o_y + (state.z[4] * rKy2 - h2b_x *
       ra2_y))));
-  const Real t1624 = t337 * tau_2_0 - (t327 * rQp3 - (model.r_steer_x * rdf2_x - (Real(0.9510565162951535) *
+  const Real t1608 = t337 * tau_2_0 - (t327 * rQp3 - (model.r_steer_x * rdf2_x - (Real(0.9510565162951535) *
       rdn3_y + (Real(0.3090169943749474) * rn2_y + (rdn1_x - (h2c_x * rfallW_y - (h2b_x * rfallW_x +
       (state.z[3] * rSu0_y - state.z[4] * rSu0_x))))))));
-  const Real t1641 = t378 * t1624 - (t357 * tau_2_0 - (t331 * rQp3 - (model.r_steer_z * rf2p_x +
+  const Real t1625 = t378 * t1608 - (t357 * tau_2_0 - (t331 * rQp3 - (model.r_steer_z * rf2p_x +
       (model.r_steer_x * rf2p_z + (rn2b_x - (rKy2 * z2_2 - (S2b_yz * zz_2 - (h2c_z * rfallW_x - (h2c_x *
       rfallW_z - (state.z[3] * rSu0_z + state.z[5] * rSu0_x))))))))));
-  const Real t1657 = t417 * t1641 - (t402 * t1624 - (t363 * tau_2_0 - (t334 * rQp3 + (model.r_steer_z * rdf2_x
+  const Real t1641 = t417 * t1625 - (t402 * t1608 - (t363 * tau_2_0 - (t334 * rQp3 + (model.r_steer_z * rdf2_x
       + (Real(0.9510565162951535) * rn2_y - (Real(0.3090169943749474) * rdn3_y - (rdn1_y + (h2c_z * rfallW_y -
       (h2b_x * rfallW_z - (state.z[4] * rSu0_z + state.z[5] * rSu0_y))))))))));
-  const Real t1669 = t449 * t1657 - (t439 * t1641 - (t407 * t1624 - (t368 * tau_2_0 - (q0r2_z * rf0_z -
+  const Real t1653 = t449 * t1641 - (t439 * t1625 - (t407 * t1608 - (t368 * tau_2_0 - (q0r2_z * rf0_z -
       (q0r2_x * rf0_x - q0r2_y * rf0_y))))) + Real(922.1400000000001);
-  const Real t1679 = t470 * t1669 - (t464 * t1657 - (t443 * t1641 - (t411 * t1624 - (t372 * tau_2_0 - (q0r1_z
+  const Real t1663 = t470 * t1653 - (t464 * t1641 - (t443 * t1625 - (t411 * t1608 - (t372 * tau_2_0 - (q0r1_z
       * rf0_z + (q0r1_x * rf0_x + q0r1_y * rf0_y))))));
-  const Real t1689 = t485 * t1679 - (t482 * t1669 - (t467 * t1657 - (t446 * t1641 - (t414 * t1624 - (t375 *
+  const Real t1673 = t485 * t1663 - (t482 * t1653 - (t467 * t1641 - (t446 * t1625 - (t414 * t1608 - (t375 *
       tau_2_0 - (q0r0_z * rf0_z + (q0r0_x * rf0_x - q0r0_y * rf0_y)))))));
-  const Real t1690 = t493 * t1689;
-  const Real t1691 = t484 * t1679;
-  const Real t1692 = t469 * t1669;
-  const Real t1693 = t448 * t1657;
-  const Real t1694 = t416 * t1641;
-  const Real t1695 = t377 * t1624;
-  const Real t1696 = model.c29 * tau_2_0;
-  const Real t1697 = Real(3.571428571428571) * rQp3;
-  const Real t1750 = t1282 * (t1164 - t59 * state.z[5]) + (t1338 * (t1289 + t1338 * (Real(2.0) * t58 +
-      model.rear_radius * (t51 * (t52 * t53 * t1295)))) - (t83 * t1695 - (t495 * t1694 - (t503 * t1693 - (t510
-      * t1692 - (t516 * t1691 + (t59 * state.z[3] * t1411 - t522 * t1690)))))));
-  const Real t1765 = t945 * t1750 + (rear_contacts1bn0_z * t1695 - (t524 * t1694 - (t533 * t1693 - (t539 *
-      t1692 - (t545 * t1691 - (t552 * t1690 + (t1162 * t1385 + (t1319 * t1412 - (t1288 * t1290 +
-      (rear_contactc_y * state.z[5] * t1411 + (t1338 * (t1300 * (q0r1_y * t1165 - (q0r1_x * state.z[3] +
-      q0r1_z * state.z[5])) + (rear_contactc_y * t1165 + t1316 * (rear_contacts1bn0_y + t52 * rear_contactc_y
-      * t1295))) - (state.z[3] * (rear_contactc_y * t1282) + (t1287 * t1289 + t1164 * t1215)))))))))))));
-  const Real t1785 = t1000 * t1765 - (t956 * t1750 + (rear_contacts2bn0_z * t1695 + (t554 * t1694 - (t563 *
-      t1693 - (t569 * t1692 - (t576 * t1691 - (t582 * t1690 + (t1289 * t1412 + (t1164 * t1288 -
-      (rear_contactc_x * state.z[5] * t1411 + (t1338 * (t1300 * (q0r0_x * state.z[3] + (q0r0_z * state.z[5] +
-      q0r0_y * t1165)) + (rear_contactc_x * t1165 + (rear_contacts2bn0_y + t52 * rear_contactc_x * t1295) *
-      t1316)) - (t1282 * (rear_contactc_x * state.z[3]) + (t1215 * t1290 - (t1162 * t1286 + t1287 *
-      t1319))))))))))))));
-  const Real t1815 = state.z[7] * (front_contactbx3_y - s2 * t72) * (t1338 + t1338) + (state.z[4] * (t89 *
-      t1282 - t86 * t1411) + (Real(2.0) * (t1210 * t1435) + (t81 * t1184 * (t1282 + t1282) + (t1046 * t1785 -
-      (t1012 * t1765 - (t966 * t1750 - (t92 * t1696 - (t585 * t1695 - (t594 * t1694 - (t603 * t1693 - (t611 *
-      t1692 - (t618 * t1691 - (t625 * t1690 - (t1417 * (t1417 * (t56 * model.c30 + model.front_radius * (t54 *
-      (t70 * (t55 * t56))))) + (t1338 * (t86 * state.z[5]) + (state.z[3] * (t1435 + t89 * t1338) - (state.z[7]
-      * (state.z[7] * (front_contactbd0p_z * t72 - model.r_front_y * t69)) - t1282 * (t81 *
-      state.z[5]))))))))))))))))));
-  const Real t1841 = t1085 * t1815 - (t1059 * t1785 - (t1022 * t1765 - (t976 * t1750 - (front_contacts1bn3p_x
-      * t1697 + (front_contacts1bm_z * t1696 - (t633 * t1695 - (t644 * t1694 - (t655 * t1693 - (t662 * t1692 -
-      (t669 * t1691 - (t677 * t1690 + (t1277 * t1385 - (t1293 * t1412 + (t1288 * t1325 + (t1266 * (state.z[7]
-      * (q0r1_x * t1199 - (s2 * q0r1_y + q0r1_z * t1200))) - (t1417 * (t1253 * (q0r1_x * t1227 - (q0r1_z *
-      t1230 - q0r1_y * t1228)) + t1262 * (t70 * (t55 * front_contactc_y) + t55 * t132)) - (t1227 *
-      (front_contactc_y * t1282) + (t1411 * (front_contactc_y * t1230) + (t1228 * (front_contactc_y * t1338) +
-      (state.z[7] * (state.z[8] * (s2 * front_contacts1bn0_y + c2 * front_contacts1bn2_y) + (state.z[3] *
-      (front_contactbx3_y * q0r0_z - q0r0_y * t1185) + (state.z[4] * (q0r0_x * t1185) - (t1186 * t1215 +
-      (state.z[7] * (front_contactbx3_x * q0r0_y) + front_contactbx3_y * (q0r0_x * state.z[5] -
-      front_contacts1bf2_y * state.z[7])))))) - (t1215 * t1240 + (t1248 * t1286 + t1245 *
-      t1287))))))))))))))))))))));
-  const Real t1872 = t1131 * (t1115 * t1841 - (t1100 * t1815 - (t1071 * t1785 - (t1033 * t1765 - (t987 * t1750
-      - (front_contacts2bn3p_x * t1697 + (front_contacts2bm_z * t1696 - (t685 * t1695 - (t696 * t1694 - (t707
-      * t1693 - (t714 * t1692 - (t722 * t1691 - (t729 * t1690 + (t1248 * t1385 + (t1245 * t1412 + (t1240 *
-      t1288 - ((t1262 * (t70 * (t55 * front_contactc_x) + t55 * t170) + t1253 * (q0r0_x * t1227 - (q0r0_z *
-      t1230 + q0r0_y * t1228))) * t1417 - (front_contactc_x * t1230 * t1411 + (front_contactc_x * t1228 *
-      t1338 - (state.z[7] * (state.z[3] * (front_contactbx3_y * q0r1_z + q0r1_y * t1185) + (state.z[4] *
-      (q0r1_z * t1186 + q0r1_x * t1185) - (t1266 * (q0r0_x * t1199 + (s2 * q0r0_y - q0r0_z * t1200)) -
-      (state.z[8] * (s2 * front_contacts2bn0_y - c2 * front_contacts2bn2_y) + (state.z[7] *
-      (front_contactbx3_x * q0r1_y + front_contactbx3_y * front_contacts2bf2_y) - state.z[5] *
-      (front_contactbx3_y * q0r1_x - q0r1_y * t1186)))))) - (front_contactc_x * t1227 * t1282 + (t1215 * t1325
-      - (t1277 * t1286 - t1287 * t1293)))))))))))))))))))))));
-  const Real t1874 = t1114 * t1841 - t1115 * t1872;
-  const Real t1878 = t1100 * t1872 - (t1084 * t1815 - t1085 * t1874);
-  const Real t1884 = t1071 * t1872 + (t1059 * t1874 - (t1045 * t1785 + t1046 * t1878));
-  const Real t1892 = t1033 * t1872 + (t1022 * t1874 - (t1012 * t1878 + (t999 * t1765 + t1000 * t1884)));
-  const Real t1902 = t987 * t1872 + (t976 * t1874 - (t966 * t1878 + (t956 * t1884 + (t944 * t1750 + t945 *
-      t1892))));
-  const Real t1903 = Real(1.8087085566416913e-12) * t1902;
-  const Real t1910 = Real(7.806783314072456e-11) * t1892 - t945 * t1903;
-  const Real t1917 = t1000 * t1910 - (Real(8.816994788327498e-12) * t1884 - t956 * t1903);
-  const Real t1924 = t1046 * t1917 - (t1012 * t1910 - (Real(3.988016169236579e-12) * t1878 - t966 * t1903));
-  const Real t1931 = t1085 * t1924 - (t1059 * t1917 - (t1022 * t1910 + (Real(4.6476630875276904e-11) * t1874 +
-      t976 * t1903)));
-  const Real t1944 = t1131 * (t1115 * t1931 - (t1100 * t1924 - (t1071 * t1917 - (t1033 * t1910 +
-      (Real(2.7054786900152528e-11) * t1872 + t987 * t1903)))));
-  const Real t1946 = t1114 * t1931 - t1115 * t1944;
-  const Real t1950 = t1100 * t1944 - (t1084 * t1924 - t1085 * t1946);
-  const Real t1956 = t1071 * t1944 + (t1059 * t1946 - (t1045 * t1917 + t1046 * t1950));
-  const Real t1964 = t1033 * t1944 + (t1022 * t1946 - (t1012 * t1950 + (t999 * t1910 + t1000 * t1956)));
-  const Real t1975 = t987 * t1944 + (t976 * t1946 - (t966 * t1950 + (t956 * t1956 + (t945 * t1964 - (t1902 +
-      t944 * t1903)))));
-  const Real t1976 = t1892 + t1964;
-  const Real t1977 = t1884 + t1956;
-  const Real t1978 = t1878 + t1950;
-  const Real t1979 = t1874 + t1946;
-  const Real t1980 = t1872 + t1944;
-  const Real t2066 = t493 * (t729 * t1980 + (t677 * t1979 - (t625 * t1978 - (t582 * t1977 - (t552 * t1976 -
-      (t1689 - t522 * t1975))))));
-  const Real t2069 = t484 * (t722 * t1980 + (t669 * t1979 - (t618 * t1978 - (t576 * t1977 - (t545 * t1976 -
-      (t1679 - t516 * t1975)))))) - t485 * t2066;
-  const Real t2074 = t470 * t2069 - (t469 * (t714 * t1980 + (t662 * t1979 - (t611 * t1978 - (t569 * t1977 -
-      (t539 * t1976 - (t1669 - t510 * t1975)))))) - t482 * t2066);
-  const Real t2081 = t449 * t2074 - (t464 * t2069 - (t448 * (t707 * t1980 + (t655 * t1979 - (t603 * t1978 -
-      (t563 * t1977 - (t533 * t1976 - (t1657 - t503 * t1975)))))) - t467 * t2066));
-  const Real t2090 = t417 * t2081 - (t439 * t2074 - (t443 * t2069 - (t416 * (t696 * t1980 + (t644 * t1979 -
-      (t594 * t1978 - (t554 * t1977 - (t524 * t1976 - (t1641 - t495 * t1975)))))) - t446 * t2066)));
-  const Real t2101 = t378 * t2090 - (t402 * t2081 - (t407 * t2074 - (t411 * t2069 - (t377 * (t685 * t1980 +
-      (t633 * t1979 - (t585 * t1978 + (rear_contacts2bn0_z * t1977 + (rear_contacts1bn0_z * t1976 - (t1624 -
-      t83 * t1975)))))) - t414 * t2066))));
-  zdot[0] = t2066;
-  zdot[1] = t2069;
-  zdot[2] = t2074;
-  zdot[3] = -t2081;
-  zdot[4] = -t2090;
-  zdot[5] = t2101;
-  zdot[6] = t2090 + Real(8.333333333333334) * (rear_contacts1bn0_y * t1976 - rear_contacts2bn0_y * t1977);
-  zdot[7] = t337 * t2101 - (t357 * t2090 - (t363 * t2081 - (t368 * t2074 - (t372 * t2069 - (model.c29 *
-      (front_contacts2bm_z * t1980 + (front_contacts1bm_z * t1979 + (tau_2_0 - t92 * t1978))) - t375 *
-      t2066)))));
-  zdot[8] = -(t327 * t2101 - (t331 * t2090 - (Real(3.571428571428571) * (front_contacts2bn3p_x * t1980 - (rQp3
-      - front_contacts1bn3p_x * t1979)) + t334 * t2081)));
+  const Real t1674 = t493 * t1673;
+  const Real t1675 = t484 * t1663;
+  const Real t1676 = t469 * t1653;
+  const Real t1677 = t448 * t1641;
+  const Real t1678 = t416 * t1625;
+  const Real t1679 = t377 * t1608;
+  const Real t1680 = model.c29 * tau_2_0;
+  const Real t1681 = Real(3.571428571428571) * rQp3;
+  const Real t1734 = t1366 * (t1225 - t1366 * t1389) + (state.z[5] * (t59 * t1314) + (t83 * t1679 - (t495 *
+      t1678 - (t503 * t1677 - (t510 * t1676 - (t516 * t1675 - (t522 * t1674 + (state.z[3] * (t59 * t1369) +
+      t1224 * t1314))))))));
+  const Real t1749 = t945 * t1734 - (rear_contacts1bn0_z * t1679 - (t524 * t1678 - (t533 * t1677 - (t539 *
+      t1676 - (t545 * t1675 - (t552 * t1674 + (t1200 * t1409 + (t1228 * t1274 + (t1198 * t1212 + (t1366 *
+      (t1222 * (q0r1_y * t1389) - (t1209 * (q0r1_y * t1203 - (q0r1_x * state.z[3] + q0r1_z * state.z[5])) -
+      rear_contactc_y * t1203)) + (t1382 * (rear_contactc_y * state.z[5]) + (t1314 * (rear_contactc_y *
+      state.z[3]) + (t1197 * t1225 - t1224 * t1237)))))))))))));
+  const Real t1769 = t1000 * t1749 - (t956 * t1734 - (rear_contacts2bn0_z * t1679 + (t554 * t1678 - (t563 *
+      t1677 - (t569 * t1676 - (t576 * t1675 - (t582 * t1674 + (t1225 * t1274 - (t1198 * t1224 + (t1366 *
+      (t1209 * (q0r0_y * t1203 + (q0r0_z * state.z[5] + q0r0_x * state.z[3])) - (rear_contactc_x * t1203 +
+      t1222 * (rear_contacts2bn0_y + t52 * rear_contactc_x * t1204))) - (rear_contactc_x * state.z[5] * t1382
+      + (rear_contactc_x * state.z[3] * t1314 - (t1200 * t1315 + (t1197 * t1228 + t1212 * t1237))))))))))))));
+  const Real t1796 = state.z[7] * (front_contactbx3_y - s2 * t72) * (t1366 + t1366) - (state.z[5] * (t81 *
+      t1314 - t86 * t1366) + (t1345 - (t1046 * t1769 - (t1012 * t1749 - (t966 * t1734 + (t92 * t1680 - (t585 *
+      t1679 - (t594 * t1678 - (t603 * t1677 - (t611 * t1676 - (t618 * t1675 - (t625 * t1674 -
+      (model.front_radius * (t1414 * ((t55 + t54 * (t70 * (t55 * t56))) * t1414)) - (t1384 + (t1384 -
+      (state.z[4] * (t89 * t1314 + t86 * t1369) - (state.z[7] * (state.z[7] * (front_contactbd0p_z * t72 -
+      model.r_front_y * t69)) - (t1345 - state.z[3] * (t89 * t1366 + t81 * t1369)))))))))))))))))));
+  const Real t1824 = t1237 * (t1295 + t1299) + (t1085 * t1796 - (t1059 * t1769 - (t1022 * t1749 - (t976 *
+      t1734 + (front_contacts1bn3p_x * t1681 + (front_contacts1bm_z * t1680 - (t633 * t1679 - (t644 * t1678 -
+      (t655 * t1677 - (t662 * t1676 - (t669 * t1675 - (t677 * t1674 - (t1317 * t1409 - (t1274 * t1283 + (t1198
+      * t1309 - (t1414 * (t1263 * (t70 * (t55 * front_contactc_y) + t55 * t132) - t1251 * (q0r1_z * t1244 -
+      (q0r1_x * t1255 + q0r1_y * t1173))) - (front_contactc_y * t1173 * t1366 + (front_contactc_y * t1244 *
+      t1382 - ((q0r0_x * state.z[4] - q0r0_y * state.z[3]) * t1297 - (state.z[7] * (t1265 * t1286 -
+      (state.z[8] * (c2 * front_contacts1bn2_y + s2 * front_contacts1bn0_y) + (front_contactbx3_y * (q0r0_z *
+      state.z[3] - q0r0_x * state.z[5]) + state.z[7] * (front_contactbx3_y * front_contacts1bf2_y -
+      front_contactbx3_x * q0r0_y)))) - (t1255 * (front_contactc_y * t1314) - (t1197 * t1301 + t1303 *
+      t1315))))))))))))))))))))));
+  const Real t1857 = t1131 * (t1115 * t1824 - (t1100 * t1796 - (t1071 * t1769 - (t1033 * t1749 - (t987 * t1734
+      + (front_contacts2bn3p_x * t1681 + (front_contacts2bm_z * t1680 - (t685 * t1679 - (t696 * t1678 - (t707
+      * t1677 - (t714 * t1676 - (t722 * t1675 - (t729 * t1674 + (t1303 * t1409 + (t1274 * t1301 - (t1198 *
+      t1299 - (t1414 * ((t55 * t170 + t70 * (t55 * front_contactc_x)) * t1263 - t1251 * (q0r0_z * t1244 +
+      (q0r0_y * t1173 - q0r0_x * t1255))) - (front_contactc_x * t1173 * t1366 + (front_contactc_x * t1244 *
+      t1382 + ((q0r1_x * state.z[4] + q0r1_y * state.z[3]) * t1297 + ((q0r1_z * state.z[4] + q0r1_y *
+      state.z[5]) * t1295 + (state.z[7] * (model.r_front_y * (state.z[7] * t1286) + (s2 *
+      (front_contacts2bn0_y * state.z[8] - q0r0_y * t1265) - (c2 * (front_contacts2bn2_y * state.z[8] -
+      front_contacts1bf2_y * t1265) + front_contactbx3_y * t1274))) - (front_contactc_x * t1255 * t1314 +
+      (t1315 * t1317 - (t1197 * t1283 + t1237 * t1309)))))))))))))))))))))))));
+  const Real t1859 = t1114 * t1824 - t1115 * t1857;
+  const Real t1863 = t1100 * t1857 - (t1084 * t1796 - t1085 * t1859);
+  const Real t1869 = t1071 * t1857 + (t1059 * t1859 - (t1045 * t1769 + t1046 * t1863));
+  const Real t1877 = t1033 * t1857 + (t1022 * t1859 - (t1012 * t1863 + (t999 * t1749 + t1000 * t1869)));
+  const Real t1887 = t987 * t1857 + (t976 * t1859 - (t966 * t1863 + (t956 * t1869 + (t944 * t1734 + t945 *
+      t1877))));
+  const Real t1888 = Real(1.8087085566416913e-12) * t1887;
+  const Real t1895 = Real(7.806783314072456e-11) * t1877 - t945 * t1888;
+  const Real t1902 = t1000 * t1895 - (Real(8.816994788327498e-12) * t1869 - t956 * t1888);
+  const Real t1909 = t1046 * t1902 - (t1012 * t1895 - (Real(3.988016169236579e-12) * t1863 - t966 * t1888));
+  const Real t1916 = t1085 * t1909 - (t1059 * t1902 - (t1022 * t1895 + (Real(4.6476630875276904e-11) * t1859 +
+      t976 * t1888)));
+  const Real t1929 = t1131 * (t1115 * t1916 - (t1100 * t1909 - (t1071 * t1902 - (t1033 * t1895 +
+      (Real(2.7054786900152528e-11) * t1857 + t987 * t1888)))));
+  const Real t1931 = t1114 * t1916 - t1115 * t1929;
+  const Real t1935 = t1100 * t1929 - (t1084 * t1909 - t1085 * t1931);
+  const Real t1941 = t1071 * t1929 + (t1059 * t1931 - (t1045 * t1902 + t1046 * t1935));
+  const Real t1949 = t1033 * t1929 + (t1022 * t1931 - (t1012 * t1935 + (t999 * t1895 + t1000 * t1941)));
+  const Real t1960 = t987 * t1929 + (t976 * t1931 - (t966 * t1935 + (t956 * t1941 + (t945 * t1949 - (t1887 +
+      t944 * t1888)))));
+  const Real t1961 = t1877 + t1949;
+  const Real t1962 = t1869 + t1941;
+  const Real t1963 = t1863 + t1935;
+  const Real t1964 = t1859 + t1931;
+  const Real t1965 = t1857 + t1929;
+  const Real t2051 = t493 * (t729 * t1965 + (t677 * t1964 - (t625 * t1963 - (t582 * t1962 - (t552 * t1961 +
+      (t1673 + t522 * t1960))))));
+  const Real t2054 = t484 * (t722 * t1965 + (t669 * t1964 - (t618 * t1963 - (t576 * t1962 - (t545 * t1961 +
+      (t1663 + t516 * t1960)))))) - t485 * t2051;
+  const Real t2059 = t470 * t2054 - (t469 * (t714 * t1965 + (t662 * t1964 - (t611 * t1963 - (t569 * t1962 -
+      (t539 * t1961 + (t1653 + t510 * t1960)))))) - t482 * t2051);
+  const Real t2066 = t449 * t2059 - (t464 * t2054 - (t448 * (t707 * t1965 + (t655 * t1964 - (t603 * t1963 -
+      (t563 * t1962 - (t533 * t1961 + (t1641 + t503 * t1960)))))) - t467 * t2051));
+  const Real t2075 = t417 * t2066 - (t439 * t2059 - (t443 * t2054 - (t416 * (t696 * t1965 + (t644 * t1964 -
+      (t594 * t1963 - (t554 * t1962 - (t524 * t1961 + (t1625 + t495 * t1960)))))) - t446 * t2051)));
+  const Real t2086 = t378 * t2075 - (t402 * t2066 - (t407 * t2059 - (t411 * t2054 - (t377 * (t685 * t1965 +
+      (t633 * t1964 - (t585 * t1963 + (rear_contacts2bn0_z * t1962 + (rear_contacts1bn0_z * t1961 + (t1608 +
+      t83 * t1960)))))) - t414 * t2051))));
+  zdot[0] = -t2051;
+  zdot[1] = -t2054;
+  zdot[2] = -t2059;
+  zdot[3] = t2066;
+  zdot[4] = t2075;
+  zdot[5] = -t2086;
+  zdot[6] = -(t2075 + Real(8.333333333333334) * (rear_contacts1bn0_y * t1961 - rear_contacts2bn0_y * t1962));
+  zdot[7] = -(t337 * t2086 - (t357 * t2075 - (t363 * t2066 - (t368 * t2059 - (t372 * t2054 - (model.c29 *
+      (front_contacts2bm_z * t1965 + (front_contacts1bm_z * t1964 - (tau_2_0 + t92 * t1963))) - t375 *
+      t2051))))));
+  zdot[8] = t327 * t2086 - (t331 * t2075 - (Real(3.571428571428571) * (front_contacts2bn3p_x * t1965 + (rQp3 +
+      front_contacts1bn3p_x * t1964)) + t334 * t2066));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -1443,9 +1439,9 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
       c2);
   const Real t52 = Real(1.0) - front_contactbd0p_z * front_contactbd0p_z;
   const Real front_contactup = detail::square_root(t52);
-  const Real t60 = (q0r2_y + q0r2_y) / rear_contactup * model.c31;
+  const Real t60 = (q0r2_y + q0r2_y) / rear_contactup * model.c30;
   const Real t66 = q0r2_x * Real(0.9510565162951535) + q0r2_z * Real(0.3090169943749474);
-  const Real t71 = (front_contactbd0p_z + front_contactbd0p_z) / front_contactup * model.c32;
+  const Real t71 = (front_contactbd0p_z + front_contactbd0p_z) / front_contactup * model.c31;
   const Real t80 = (q011 + q022) * Real(0.5) - (state.y[6] * state.y[6] + state.y[3] * state.y[3]);
   const Real t82 = front_contactbx3_x + c2 * t71;
   const Real t84 = q0r2_x * t60;
@@ -1828,9 +1824,9 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
       q0r2_y_2 * c2_2);
   const Real t1469 = Real(1.0) - front_contactbd0p_z_2 * front_contactbd0p_z_2;
   const Real front_contactup_2 = detail::square_root(t1469);
-  const Real t1474 = model.c31 * ((q0r2_y_2 + q0r2_y_2) / rear_contactup_2);
+  const Real t1474 = model.c30 * ((q0r2_y_2 + q0r2_y_2) / rear_contactup_2);
   const Real t1482 = Real(0.9510565162951535) * q0r2_x_2 - Real(0.3090169943749474) * q0r2_z_2;
-  const Real t1486 = model.c32 * ((front_contactbd0p_z_2 + front_contactbd0p_z_2) / front_contactup_2);
+  const Real t1486 = model.c31 * ((front_contactbd0p_z_2 + front_contactbd0p_z_2) / front_contactup_2);
   const Real t1493 = t1381 * t1381 - (t1382 * t1382 + (t1379 * t1379 - t1380 * t1380));
   const Real t1495 = front_contactbx3_x_2 + c2_2 * t1486;
   const Real t1500 = front_contactbx2p_x_2 - front_contactbd2p_x_2 * t1486;
@@ -1988,8 +1984,8 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   detail::sine_cosine(state.y[8], s2, c2);
   const Real front_contactbx3_x = s2 * model.r_front_y;
   const Real front_contactbx3_y = c2 * model.r_front_y;
-  const Real front_contactbx2p_x = front_contactbx3_y * Real(0.9510565162951535) + model.c33;
-  const Real front_contactbx2p_z = front_contactbx3_y * Real(0.3090169943749474) + model.c34;
+  const Real front_contactbx2p_x = front_contactbx3_y * Real(0.9510565162951535) + model.c32;
+  const Real front_contactbx2p_z = front_contactbx3_y * Real(0.3090169943749474) + model.c33;
   const Real front_contactbd2p_x = s2 * Real(0.9510565162951535);
   const Real front_contactbd2p_z = s2 * Real(0.3090169943749474);
   const Real front_contactbd0p_z = q0r2_y * c2 - (q0r2_x * front_contactbd2p_x + q0r2_z *
@@ -1998,9 +1994,9 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real front_contactup = detail::square_root(t52);
   const Real g_front_contact = q0r2_x * front_contactbx2p_x + (state.y[2] + (q0r2_y * front_contactbx3_x +
       (q0r2_z * front_contactbx2p_z + front_contactup * model.front_radius)));
-  const Real t64 = (q0r2_y + q0r2_y) / rear_contactup * model.c31;
+  const Real t64 = (q0r2_y + q0r2_y) / rear_contactup * model.c30;
   const Real t70 = q0r2_x * Real(0.9510565162951535) + q0r2_z * Real(0.3090169943749474);
-  const Real t75 = (front_contactbd0p_z + front_contactbd0p_z) / front_contactup * model.c32;
+  const Real t75 = (front_contactbd0p_z + front_contactbd0p_z) / front_contactup * model.c31;
   const Real t84 = (q011 + q022) * Real(0.5) - (state.y[6] * state.y[6] + state.y[3] * state.y[3]);
   const Real t86 = front_contactbx3_x - c2 * t75;
   const Real t91 = front_contactbx2p_x + front_contactbd2p_x * t75;
@@ -2420,55 +2416,56 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t1141 = t49 * state.z[5] + (t47 * state.z[3] - t50 * state.z[4]);
   const Real t1146 = t48 * state.z[5] - (t50 * state.z[3] + t47 * state.z[4]);
   const Real t1151 = t47 * state.z[5] - (t49 * state.z[3] - t48 * state.z[4]);
-  const Real t1162 = rear_contactc_z * state.z[5];
-  const Real t1164 = model.rear_radius * state.z[4];
-  const Real t1165 = state.z[4] + state.z[6];
-  const Real t1167 = Real(2.0) * state.y[3];
-  const Real t1170 = t1141 * (q0d1 + q0d1);
-  const Real t1176 = q0d3 * t1141 + q0d1 * t1151;
-  const Real t1180 = q0d2 * t1136;
-  const Real t1182 = t1151 * t1167 - q0d3 * t1136;
-  const Real t1184 = Real(0.9510565162951535) * state.z[7];
-  const Real t1185 = front_contactbx3_x * Real(0.3090169943749474);
-  const Real t1186 = front_contactbx3_x * Real(0.9510565162951535);
-  const Real t1199 = c2 * Real(0.9510565162951535);
-  const Real t1200 = c2 * Real(0.3090169943749474);
-  const Real t1210 = Real(0.3090169943749474) * state.z[7];
-  const Real t1215 = q0r0_y * state.z[5] - q0r0_z * state.z[4];
-  const Real t1227 = front_contactbd2p_x * state.z[8] - (state.z[3] + t1210);
-  const Real t1228 = state.z[4] + c2 * state.z[8];
-  const Real t1229 = state.z[5] + t1184;
-  const Real t1230 = front_contactbd2p_z * state.z[8] + t1229;
-  const Real t1240 = front_contactbx2p_z * state.z[4] + front_contactbx3_x * t1229;
-  const Real t1245 = front_contactbx2p_z * state.z[3] + (front_contactbx3_y * state.z[7] + front_contactbx2p_x
-      * state.z[5]);
-  const Real t1248 = front_contactbx3_x * state.z[3] + (state.z[7] * t1185 - front_contactbx2p_x *
-      state.z[4]);
-  const Real t1253 = t70 * (t55 * front_contactc_z) - (t72 + t72);
-  const Real t1262 = q0r2_y * t1228 - (q0r2_z * t1230 + q0r2_x * t1227);
-  const Real t1266 = t72 * t1262;
-  const Real t1277 = front_contactc_z * t1230 - front_contactbd2p_z * t1266;
-  const Real t1280 = t1146 * t1167;
-  const Real t1282 = t1280 + (t1176 + t1180);
-  const Real t1284 = q0d2 * t1141 - q0d1 * t1146;
-  const Real t1286 = t1280 - (t1176 - t1180);
-  const Real t1287 = t1182 - t1284;
-  const Real t1288 = t1182 + t1284;
-  const Real t1289 = model.rear_radius * state.z[3];
-  const Real t1290 = rear_contactc_z * state.z[3];
-  const Real t1293 = c2 * t1266 - front_contactc_z * t1228;
-  const Real t1295 = t51 * t53;
-  const Real t1300 = t52 * rear_contactc_z * t1295 - (t59 + t59);
-  const Real t1316 = q0r2_x * state.z[3] - (q0r2_z * state.z[5] - q0r2_y * t1165);
-  const Real t1319 = rear_contactc_z * t1165 + t59 * t1316;
-  const Real t1325 = front_contactbd2p_x * t1266 - front_contactc_z * t1227;
-  const Real t1338 = t79 * state.z[3] + q0r2_x * state.z[5];
-  const Real t1385 = q0d3 * t1146 - (q0d2 * t1151 - (t1141 * t1167 - q0d1 * t1136));
-  const Real t1411 = t1170 - t1146 * (q0d2 + q0d2);
-  const Real t1412 = t1170 + t1151 * (q0d3 + q0d3);
-  const Real t1417 = front_contactbd2p_z * t1411 + (c2 * t1338 + (t69 * state.z[7] + front_contactbd2p_x *
-      t1282));
-  const Real t1435 = t81 * t1411;
+  const Real t1173 = state.z[4] + c2 * state.z[8];
+  const Real t1174 = Real(2.0) * state.y[3];
+  const Real t1185 = q0d1 * t1146 - q0d2 * t1141;
+  const Real t1187 = t1141 * t1174 - q0d1 * t1136;
+  const Real t1189 = t1146 * t1174 + q0d2 * t1136;
+  const Real t1192 = q0d3 * t1146 - q0d2 * t1151;
+  const Real t1194 = q0d3 * t1141 + q0d1 * t1151;
+  const Real t1196 = q0d3 * t1136 - t1151 * t1174;
+  const Real t1197 = t1185 - t1196;
+  const Real t1198 = t1185 + t1196;
+  const Real t1200 = rear_contactc_z * state.z[5];
+  const Real t1203 = state.z[4] + state.z[6];
+  const Real t1204 = t51 * t53;
+  const Real t1205 = t51 * model.rear_radius;
+  const Real t1209 = t52 * t1205 - t52 * rear_contactc_z * t1204;
+  const Real t1212 = rear_contactc_z * state.z[3];
+  const Real t1222 = q0r2_y * t1203 - (q0r2_z * state.z[5] - q0r2_x * state.z[3]);
+  const Real t1224 = model.rear_radius * state.z[4];
+  const Real t1225 = model.rear_radius * state.z[3];
+  const Real t1228 = rear_contactc_z * t1203 + t59 * t1222;
+  const Real t1237 = q0r0_z * state.z[4] - q0r0_y * state.z[5];
+  const Real t1244 = Real(0.9510565162951535) * state.z[7] + (state.z[5] + front_contactbd2p_z * state.z[8]);
+  const Real t1251 = t70 * (t55 * front_contactc_z) - (t72 + t72);
+  const Real t1255 = front_contactbd2p_x * state.z[8] - (state.z[3] + Real(0.3090169943749474) * state.z[7]);
+  const Real t1263 = q0r2_y * t1173 - (q0r2_z * t1244 + q0r2_x * t1255);
+  const Real t1265 = t72 * t1263;
+  const Real t1274 = q0r1_x * state.z[5] - q0r1_z * state.z[3];
+  const Real t1283 = front_contactc_z * t1173 - c2 * t1265;
+  const Real t1286 = c2 * front_contacts2bf2_y + s2 * q0r1_y;
+  const Real t1294 = front_contactbx3_x * state.z[7];
+  const Real t1295 = Real(0.9510565162951535) * t1294;
+  const Real t1297 = Real(0.3090169943749474) * t1294;
+  const Real t1299 = t1295 + (front_contactbx2p_z * state.z[4] + front_contactbx3_x * state.z[5]);
+  const Real t1301 = front_contactbx3_y * state.z[7] + (front_contactbx2p_x * state.z[5] + front_contactbx2p_z
+      * state.z[3]);
+  const Real t1303 = t1297 - (front_contactbx2p_x * state.z[4] - front_contactbx3_x * state.z[3]);
+  const Real t1309 = front_contactbd2p_x * t1265 - front_contactc_z * t1255;
+  const Real t1314 = t1189 + t1194;
+  const Real t1315 = t1189 - t1194;
+  const Real t1317 = front_contactbd2p_z * t1265 - front_contactc_z * t1244;
+  const Real t1339 = t81 * state.z[7];
+  const Real t1345 = Real(0.9510565162951535) * (t1314 * t1339);
+  const Real t1366 = t1187 - t1192;
+  const Real t1369 = t1146 * (q0d2 + q0d2) - t1141 * (q0d1 + q0d1);
+  const Real t1382 = q0r2_x * state.z[4] - q0r2_y * state.z[3];
+  const Real t1384 = Real(0.3090169943749474) * (t1339 * t1382);
+  const Real t1389 = Real(2.0) * t58 + t1205 * (t52 * t53 * t1204);
+  const Real t1409 = t1187 + t1192;
+  const Real t1414 = c2 * t1366 + (front_contactbd2p_z * t1382 - (t69 * state.z[7] + front_contactbd2p_x *
+      t1314));
   const Real w2p_y = Real(0.3090169943749474) * state.z[5] - Real(0.9510565162951535) * state.z[3];
   const Real w2p_z = Real(0.3090169943749474) * state.z[3] + Real(0.9510565162951535) * state.z[5];
   const Real w2_z = state.z[7] + w2p_z;
@@ -2519,96 +2516,92 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real rf0_z = rf2p_z - (state.z[5] * ruh0 - h2c_z * ruw0);
   const Real tau_2_0 = input.u[0] - (rdn3_y + (w2p_y * rKx2 - (h2b_y * ra2o_y + (state.z[4] * rKy2 - h2b_x *
       ra2_y))));
-  const Real t1624 = t337 * tau_2_0 - (t327 * rQp3 - (model.r_steer_x * rdf2_x - (Real(0.9510565162951535) *
+  const Real t1608 = t337 * tau_2_0 - (t327 * rQp3 - (model.r_steer_x * rdf2_x - (Real(0.9510565162951535) *
       rdn3_y + (Real(0.3090169943749474) * rn2_y + (rdn1_x - (h2c_x * rfallW_y - (h2b_x * rfallW_x +
       (state.z[3] * rSu0_y - state.z[4] * rSu0_x))))))));
-  const Real t1641 = t378 * t1624 - (t357 * tau_2_0 - (t331 * rQp3 - (model.r_steer_z * rf2p_x +
+  const Real t1625 = t378 * t1608 - (t357 * tau_2_0 - (t331 * rQp3 - (model.r_steer_z * rf2p_x +
       (model.r_steer_x * rf2p_z + (rn2b_x - (rKy2 * z2_2 - (S2b_yz * zz_2 - (h2c_z * rfallW_x - (h2c_x *
       rfallW_z - (state.z[3] * rSu0_z + state.z[5] * rSu0_x))))))))));
-  const Real t1657 = t417 * t1641 - (t402 * t1624 - (t363 * tau_2_0 - (t334 * rQp3 + (model.r_steer_z * rdf2_x
+  const Real t1641 = t417 * t1625 - (t402 * t1608 - (t363 * tau_2_0 - (t334 * rQp3 + (model.r_steer_z * rdf2_x
       + (Real(0.9510565162951535) * rn2_y - (Real(0.3090169943749474) * rdn3_y - (rdn1_y + (h2c_z * rfallW_y -
       (h2b_x * rfallW_z - (state.z[4] * rSu0_z + state.z[5] * rSu0_y))))))))));
-  const Real t1669 = t449 * t1657 - (t439 * t1641 - (t407 * t1624 - (t368 * tau_2_0 - (q0r2_z * rf0_z -
+  const Real t1653 = t449 * t1641 - (t439 * t1625 - (t407 * t1608 - (t368 * tau_2_0 - (q0r2_z * rf0_z -
       (q0r2_x * rf0_x - q0r2_y * rf0_y))))) + Real(922.1400000000001);
-  const Real t1679 = t470 * t1669 - (t464 * t1657 - (t443 * t1641 - (t411 * t1624 - (t372 * tau_2_0 - (q0r1_z
+  const Real t1663 = t470 * t1653 - (t464 * t1641 - (t443 * t1625 - (t411 * t1608 - (t372 * tau_2_0 - (q0r1_z
       * rf0_z + (q0r1_x * rf0_x + q0r1_y * rf0_y))))));
-  const Real t1690 = t493 * (t485 * t1679 - (t482 * t1669 - (t467 * t1657 - (t446 * t1641 - (t414 * t1624 -
+  const Real t1674 = t493 * (t485 * t1663 - (t482 * t1653 - (t467 * t1641 - (t446 * t1625 - (t414 * t1608 -
       (t375 * tau_2_0 - (q0r0_z * rf0_z + (q0r0_x * rf0_x - q0r0_y * rf0_y))))))));
-  const Real t1691 = t484 * t1679;
-  const Real t1692 = t469 * t1669;
-  const Real t1693 = t448 * t1657;
-  const Real t1694 = t416 * t1641;
-  const Real t1695 = t377 * t1624;
-  const Real t1696 = model.c29 * tau_2_0;
-  const Real t1697 = Real(3.571428571428571) * rQp3;
-  const Real t1750 = t1282 * (t1164 - t59 * state.z[5]) + (t1338 * (t1289 + t1338 * (Real(2.0) * t58 +
-      model.rear_radius * (t51 * (t52 * t53 * t1295)))) - (t83 * t1695 - (t495 * t1694 - (t503 * t1693 - (t510
-      * t1692 - (t516 * t1691 + (t59 * state.z[3] * t1411 - t522 * t1690)))))));
-  const Real t1765 = t945 * t1750 + (rear_contacts1bn0_z * t1695 - (t524 * t1694 - (t533 * t1693 - (t539 *
-      t1692 - (t545 * t1691 - (t552 * t1690 + (t1162 * t1385 + (t1319 * t1412 - (t1288 * t1290 +
-      (rear_contactc_y * state.z[5] * t1411 + (t1338 * (t1300 * (q0r1_y * t1165 - (q0r1_x * state.z[3] +
-      q0r1_z * state.z[5])) + (rear_contactc_y * t1165 + t1316 * (rear_contacts1bn0_y + t52 * rear_contactc_y
-      * t1295))) - (state.z[3] * (rear_contactc_y * t1282) + (t1287 * t1289 + t1164 * t1215)))))))))))));
-  const Real t1785 = t1000 * t1765 - (t956 * t1750 + (rear_contacts2bn0_z * t1695 + (t554 * t1694 - (t563 *
-      t1693 - (t569 * t1692 - (t576 * t1691 - (t582 * t1690 + (t1289 * t1412 + (t1164 * t1288 -
-      (rear_contactc_x * state.z[5] * t1411 + (t1338 * (t1300 * (q0r0_x * state.z[3] + (q0r0_z * state.z[5] +
-      q0r0_y * t1165)) + (rear_contactc_x * t1165 + (rear_contacts2bn0_y + t52 * rear_contactc_x * t1295) *
-      t1316)) - (t1282 * (rear_contactc_x * state.z[3]) + (t1215 * t1290 - (t1162 * t1286 + t1287 *
-      t1319))))))))))))));
-  const Real t1815 = state.z[7] * (front_contactbx3_y - s2 * t72) * (t1338 + t1338) + (state.z[4] * (t89 *
-      t1282 - t86 * t1411) + (Real(2.0) * (t1210 * t1435) + (t81 * t1184 * (t1282 + t1282) + (t1046 * t1785 -
-      (t1012 * t1765 - (t966 * t1750 - (t92 * t1696 - (t585 * t1695 - (t594 * t1694 - (t603 * t1693 - (t611 *
-      t1692 - (t618 * t1691 - (t625 * t1690 - (t1417 * (t1417 * (t56 * model.c30 + model.front_radius * (t54 *
-      (t70 * (t55 * t56))))) + (t1338 * (t86 * state.z[5]) + (state.z[3] * (t1435 + t89 * t1338) - (state.z[7]
-      * (state.z[7] * (front_contactbd0p_z * t72 - model.r_front_y * t69)) - t1282 * (t81 *
-      state.z[5]))))))))))))))))));
-  const Real t1841 = t1085 * t1815 - (t1059 * t1785 - (t1022 * t1765 - (t976 * t1750 - (front_contacts1bn3p_x
-      * t1697 + (front_contacts1bm_z * t1696 - (t633 * t1695 - (t644 * t1694 - (t655 * t1693 - (t662 * t1692 -
-      (t669 * t1691 - (t677 * t1690 + (t1277 * t1385 - (t1293 * t1412 + (t1288 * t1325 + (t1266 * (state.z[7]
-      * (q0r1_x * t1199 - (s2 * q0r1_y + q0r1_z * t1200))) - (t1417 * (t1253 * (q0r1_x * t1227 - (q0r1_z *
-      t1230 - q0r1_y * t1228)) + t1262 * (t70 * (t55 * front_contactc_y) + t55 * t132)) - (t1227 *
-      (front_contactc_y * t1282) + (t1411 * (front_contactc_y * t1230) + (t1228 * (front_contactc_y * t1338) +
-      (state.z[7] * (state.z[8] * (s2 * front_contacts1bn0_y + c2 * front_contacts1bn2_y) + (state.z[3] *
-      (front_contactbx3_y * q0r0_z - q0r0_y * t1185) + (state.z[4] * (q0r0_x * t1185) - (t1186 * t1215 +
-      (state.z[7] * (front_contactbx3_x * q0r0_y) + front_contactbx3_y * (q0r0_x * state.z[5] -
-      front_contacts1bf2_y * state.z[7])))))) - (t1215 * t1240 + (t1248 * t1286 + t1245 *
-      t1287))))))))))))))))))))));
-  const Real t1872 = t1131 * (t1115 * t1841 - (t1100 * t1815 - (t1071 * t1785 - (t1033 * t1765 - (t987 * t1750
-      - (front_contacts2bn3p_x * t1697 + (front_contacts2bm_z * t1696 - (t685 * t1695 - (t696 * t1694 - (t707
-      * t1693 - (t714 * t1692 - (t722 * t1691 - (t729 * t1690 + (t1248 * t1385 + (t1245 * t1412 + (t1240 *
-      t1288 - ((t1262 * (t70 * (t55 * front_contactc_x) + t55 * t170) + t1253 * (q0r0_x * t1227 - (q0r0_z *
-      t1230 + q0r0_y * t1228))) * t1417 - (front_contactc_x * t1230 * t1411 + (front_contactc_x * t1228 *
-      t1338 - (state.z[7] * (state.z[3] * (front_contactbx3_y * q0r1_z + q0r1_y * t1185) + (state.z[4] *
-      (q0r1_z * t1186 + q0r1_x * t1185) - (t1266 * (q0r0_x * t1199 + (s2 * q0r0_y - q0r0_z * t1200)) -
-      (state.z[8] * (s2 * front_contacts2bn0_y - c2 * front_contacts2bn2_y) + (state.z[7] *
-      (front_contactbx3_x * q0r1_y + front_contactbx3_y * front_contacts2bf2_y) - state.z[5] *
-      (front_contactbx3_y * q0r1_x - q0r1_y * t1186)))))) - (front_contactc_x * t1227 * t1282 + (t1215 * t1325
-      - (t1277 * t1286 - t1287 * t1293)))))))))))))))))))))));
-  const Real t1874 = t1114 * t1841 - t1115 * t1872;
-  const Real t1878 = t1100 * t1872 - (t1084 * t1815 - t1085 * t1874);
-  const Real t1884 = t1071 * t1872 + (t1059 * t1874 - (t1045 * t1785 + t1046 * t1878));
-  const Real t1892 = t1033 * t1872 + (t1022 * t1874 - (t1012 * t1878 + (t999 * t1765 + t1000 * t1884)));
-  const Real t1902 = t987 * t1872 + (t976 * t1874 - (t966 * t1878 + (t956 * t1884 + (t944 * t1750 + t945 *
-      t1892))));
-  const Real t1903 = Real(1.8087085566416913e-12) * t1902;
-  const Real t1910 = Real(7.806783314072456e-11) * t1892 - t945 * t1903;
-  const Real t1917 = t1000 * t1910 - (Real(8.816994788327498e-12) * t1884 - t956 * t1903);
-  const Real t1924 = t1046 * t1917 - (t1012 * t1910 - (Real(3.988016169236579e-12) * t1878 - t966 * t1903));
-  const Real t1931 = t1085 * t1924 - (t1059 * t1917 - (t1022 * t1910 + (Real(4.6476630875276904e-11) * t1874 +
-      t976 * t1903)));
-  const Real t1944 = t1131 * (t1115 * t1931 - (t1100 * t1924 - (t1071 * t1917 - (t1033 * t1910 +
-      (Real(2.7054786900152528e-11) * t1872 + t987 * t1903)))));
-  const Real t1946 = t1114 * t1931 - t1115 * t1944;
-  const Real t1950 = t1100 * t1944 - (t1084 * t1924 - t1085 * t1946);
-  const Real t1956 = t1071 * t1944 + (t1059 * t1946 - (t1045 * t1917 + t1046 * t1950));
-  const Real t1964 = t1033 * t1944 + (t1022 * t1946 - (t1012 * t1950 + (t999 * t1910 + t1000 * t1956)));
-  lambda[0] = -(t987 * t1944 + (t976 * t1946 - (t966 * t1950 + (t956 * t1956 + (t945 * t1964 - (t1902 + t944 *
-      t1903))))));
-  lambda[1] = t1892 + t1964;
-  lambda[2] = t1884 + t1956;
-  lambda[3] = t1878 + t1950;
-  lambda[4] = -(t1874 + t1946);
-  lambda[5] = t1872 + t1944;
+  const Real t1675 = t484 * t1663;
+  const Real t1676 = t469 * t1653;
+  const Real t1677 = t448 * t1641;
+  const Real t1678 = t416 * t1625;
+  const Real t1679 = t377 * t1608;
+  const Real t1680 = model.c29 * tau_2_0;
+  const Real t1681 = Real(3.571428571428571) * rQp3;
+  const Real t1734 = t1366 * (t1225 - t1366 * t1389) + (state.z[5] * (t59 * t1314) + (t83 * t1679 - (t495 *
+      t1678 - (t503 * t1677 - (t510 * t1676 - (t516 * t1675 - (t522 * t1674 + (state.z[3] * (t59 * t1369) +
+      t1224 * t1314))))))));
+  const Real t1749 = t945 * t1734 - (rear_contacts1bn0_z * t1679 - (t524 * t1678 - (t533 * t1677 - (t539 *
+      t1676 - (t545 * t1675 - (t552 * t1674 + (t1200 * t1409 + (t1228 * t1274 + (t1198 * t1212 + (t1366 *
+      (t1222 * (q0r1_y * t1389) - (t1209 * (q0r1_y * t1203 - (q0r1_x * state.z[3] + q0r1_z * state.z[5])) -
+      rear_contactc_y * t1203)) + (t1382 * (rear_contactc_y * state.z[5]) + (t1314 * (rear_contactc_y *
+      state.z[3]) + (t1197 * t1225 - t1224 * t1237)))))))))))));
+  const Real t1769 = t1000 * t1749 - (t956 * t1734 - (rear_contacts2bn0_z * t1679 + (t554 * t1678 - (t563 *
+      t1677 - (t569 * t1676 - (t576 * t1675 - (t582 * t1674 + (t1225 * t1274 - (t1198 * t1224 + (t1366 *
+      (t1209 * (q0r0_y * t1203 + (q0r0_z * state.z[5] + q0r0_x * state.z[3])) - (rear_contactc_x * t1203 +
+      t1222 * (rear_contacts2bn0_y + t52 * rear_contactc_x * t1204))) - (rear_contactc_x * state.z[5] * t1382
+      + (rear_contactc_x * state.z[3] * t1314 - (t1200 * t1315 + (t1197 * t1228 + t1212 * t1237))))))))))))));
+  const Real t1796 = state.z[7] * (front_contactbx3_y - s2 * t72) * (t1366 + t1366) - (state.z[5] * (t81 *
+      t1314 - t86 * t1366) + (t1345 - (t1046 * t1769 - (t1012 * t1749 - (t966 * t1734 + (t92 * t1680 - (t585 *
+      t1679 - (t594 * t1678 - (t603 * t1677 - (t611 * t1676 - (t618 * t1675 - (t625 * t1674 -
+      (model.front_radius * (t1414 * ((t55 + t54 * (t70 * (t55 * t56))) * t1414)) - (t1384 + (t1384 -
+      (state.z[4] * (t89 * t1314 + t86 * t1369) - (state.z[7] * (state.z[7] * (front_contactbd0p_z * t72 -
+      model.r_front_y * t69)) - (t1345 - state.z[3] * (t89 * t1366 + t81 * t1369)))))))))))))))))));
+  const Real t1824 = t1237 * (t1295 + t1299) + (t1085 * t1796 - (t1059 * t1769 - (t1022 * t1749 - (t976 *
+      t1734 + (front_contacts1bn3p_x * t1681 + (front_contacts1bm_z * t1680 - (t633 * t1679 - (t644 * t1678 -
+      (t655 * t1677 - (t662 * t1676 - (t669 * t1675 - (t677 * t1674 - (t1317 * t1409 - (t1274 * t1283 + (t1198
+      * t1309 - (t1414 * (t1263 * (t70 * (t55 * front_contactc_y) + t55 * t132) - t1251 * (q0r1_z * t1244 -
+      (q0r1_x * t1255 + q0r1_y * t1173))) - (front_contactc_y * t1173 * t1366 + (front_contactc_y * t1244 *
+      t1382 - ((q0r0_x * state.z[4] - q0r0_y * state.z[3]) * t1297 - (state.z[7] * (t1265 * t1286 -
+      (state.z[8] * (c2 * front_contacts1bn2_y + s2 * front_contacts1bn0_y) + (front_contactbx3_y * (q0r0_z *
+      state.z[3] - q0r0_x * state.z[5]) + state.z[7] * (front_contactbx3_y * front_contacts1bf2_y -
+      front_contactbx3_x * q0r0_y)))) - (t1255 * (front_contactc_y * t1314) - (t1197 * t1301 + t1303 *
+      t1315))))))))))))))))))))));
+  const Real t1857 = t1131 * (t1115 * t1824 - (t1100 * t1796 - (t1071 * t1769 - (t1033 * t1749 - (t987 * t1734
+      + (front_contacts2bn3p_x * t1681 + (front_contacts2bm_z * t1680 - (t685 * t1679 - (t696 * t1678 - (t707
+      * t1677 - (t714 * t1676 - (t722 * t1675 - (t729 * t1674 + (t1303 * t1409 + (t1274 * t1301 - (t1198 *
+      t1299 - (t1414 * ((t55 * t170 + t70 * (t55 * front_contactc_x)) * t1263 - t1251 * (q0r0_z * t1244 +
+      (q0r0_y * t1173 - q0r0_x * t1255))) - (front_contactc_x * t1173 * t1366 + (front_contactc_x * t1244 *
+      t1382 + ((q0r1_x * state.z[4] + q0r1_y * state.z[3]) * t1297 + ((q0r1_z * state.z[4] + q0r1_y *
+      state.z[5]) * t1295 + (state.z[7] * (model.r_front_y * (state.z[7] * t1286) + (s2 *
+      (front_contacts2bn0_y * state.z[8] - q0r0_y * t1265) - (c2 * (front_contacts2bn2_y * state.z[8] -
+      front_contacts1bf2_y * t1265) + front_contactbx3_y * t1274))) - (front_contactc_x * t1255 * t1314 +
+      (t1315 * t1317 - (t1197 * t1283 + t1237 * t1309)))))))))))))))))))))))));
+  const Real t1859 = t1114 * t1824 - t1115 * t1857;
+  const Real t1863 = t1100 * t1857 - (t1084 * t1796 - t1085 * t1859);
+  const Real t1869 = t1071 * t1857 + (t1059 * t1859 - (t1045 * t1769 + t1046 * t1863));
+  const Real t1877 = t1033 * t1857 + (t1022 * t1859 - (t1012 * t1863 + (t999 * t1749 + t1000 * t1869)));
+  const Real t1887 = t987 * t1857 + (t976 * t1859 - (t966 * t1863 + (t956 * t1869 + (t944 * t1734 + t945 *
+      t1877))));
+  const Real t1888 = Real(1.8087085566416913e-12) * t1887;
+  const Real t1895 = Real(7.806783314072456e-11) * t1877 - t945 * t1888;
+  const Real t1902 = t1000 * t1895 - (Real(8.816994788327498e-12) * t1869 - t956 * t1888);
+  const Real t1909 = t1046 * t1902 - (t1012 * t1895 - (Real(3.988016169236579e-12) * t1863 - t966 * t1888));
+  const Real t1916 = t1085 * t1909 - (t1059 * t1902 - (t1022 * t1895 + (Real(4.6476630875276904e-11) * t1859 +
+      t976 * t1888)));
+  const Real t1929 = t1131 * (t1115 * t1916 - (t1100 * t1909 - (t1071 * t1902 - (t1033 * t1895 +
+      (Real(2.7054786900152528e-11) * t1857 + t987 * t1888)))));
+  const Real t1931 = t1114 * t1916 - t1115 * t1929;
+  const Real t1935 = t1100 * t1929 - (t1084 * t1909 - t1085 * t1931);
+  const Real t1941 = t1071 * t1929 + (t1059 * t1931 - (t1045 * t1902 + t1046 * t1935));
+  const Real t1949 = t1033 * t1929 + (t1022 * t1931 - (t1012 * t1935 + (t999 * t1895 + t1000 * t1941)));
+  lambda[0] = t987 * t1929 + (t976 * t1931 - (t966 * t1935 + (t956 * t1941 + (t945 * t1949 - (t1887 + t944 *
+      t1888)))));
+  lambda[1] = -(t1877 + t1949);
+  lambda[2] = -(t1869 + t1941);
+  lambda[3] = -(t1863 + t1935);
+  lambda[4] = t1859 + t1931;
+  lambda[5] = -(t1857 + t1929);
 }
 
 // `input` may be a function that gives the Input at the state of a stage.

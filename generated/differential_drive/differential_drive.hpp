@@ -217,7 +217,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
-/// 42 operations (26 mul, 16 add and sub, 0 div), 2 sin and cos.
+/// 44 operations (27 mul, 17 add and sub, 0 div), 2 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[2], Real
     (&tau)[2]) noexcept;

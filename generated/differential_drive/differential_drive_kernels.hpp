@@ -291,14 +291,16 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real rdf0t_z = t12 * t19;
   const Real rdf1t_z = t12 * t17;
   const Real zw_2 = t11 * t11;
-  const Real rf1_z = rdf1t_z + h2b_y * zw_2;
-  const Real rf0_z = rdf0t_z - h2b_x * zw_2;
+  const Real rdf2_x = h2b_x * zw_2;
+  const Real rdf2_y = h2b_y * zw_2;
+  const Real rf1_z = rdf1t_z + rdf2_y;
+  const Real rf0_z = rdf0t_z - rdf2_x;
   const Real t46 = t4 * rf0_z - t5 * rf1_z;
   const Real t48 = t12 * model.c8;
-  const Real t50 = t48 + (input.u[1] - t46);
-  const Real t55 = (t32 * t50 + (t48 - (input.u[0] - t46))) / (t29 - t27 * t32);
+  const Real t50 = t46 - (input.u[1] + t48);
+  const Real t55 = (t46 - (input.u[0] - (t48 - t32 * t50))) / (t29 - t27 * t32);
   zdot[0] = -t55;
-  zdot[1] = t31 * t50 + t32 * t55;
+  zdot[1] = -(t31 * t50 - t32 * t55);
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -311,22 +313,24 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t11 = (state.z[0] - state.z[1]) * model.c1;
   const Real t13 = model.c0 * ((state.z[0] + state.z[1]) * t11);
   const Real t18 = zdot[0] + zdot[1];
+  const Real t20 = s2 * t13 + t4 * t18;
+  const Real t22 = c2 * t13 - t5 * t18;
   const Real t24 = model.c1 * (zdot[0] - zdot[1]);
   const Real h2b_x = c2 * model.mr_x;
   const Real h2b_y = s2 * model.mr_x;
-  const Real adf0t_z = (s2 * t13 + t4 * t18) * Real(9.0);
-  const Real adf1t_z = (c2 * t13 - t5 * t18) * Real(9.0);
+  const Real adf0t_z = t20 * Real(9.0);
+  const Real adf1t_z = t22 * Real(9.0);
   const Real zw_2 = t11 * t11;
   const Real adn2_z = t24 * model.S2b_zz;
   const Real adn3_z = zdot[0] * Real(0.0025);
   const Real adn4_z = zdot[1] * Real(0.0025);
-  const Real af1_z = h2b_y * zw_2 + (adf1t_z + t24 * h2b_x);
-  const Real af0_z = h2b_x * zw_2 - (adf0t_z + t24 * h2b_y);
-  const Real aQ2_0 = adn2_z + t13 * model.mr_x;
-  const Real t49 = t4 * af0_z + t5 * af1_z;
-  const Real t50 = model.c1 * aQ2_0;
-  tau[0] = t50 + (adn3_z - t49);
-  tau[1] = -(t50 - (adn4_z - t49));
+  const Real af1_z = t24 * h2b_x + (adf1t_z + h2b_y * zw_2);
+  const Real af0_z = t24 * h2b_y + (adf0t_z - h2b_x * zw_2);
+  const Real aQ2_0 = t22 * h2b_x + (t20 * h2b_y + adn2_z);
+  const Real t51 = t4 * af0_z - t5 * af1_z;
+  const Real t52 = model.c1 * aQ2_0;
+  tau[0] = t51 + (adn3_z + t52);
+  tau[1] = t51 + (adn4_z - t52);
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -370,10 +374,10 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
     (&lambda)[3]) noexcept {
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
-  const Real left_wheelx3_y = c2 * model.expression;
-  const Real left_wheelx3_x = s2 * model.expression;
-  const Real t9 = left_wheelx3_y * model.c1;
-  const Real t10 = left_wheelx3_x * model.c1;
+  const Real t4 = s2 * model.expression;
+  const Real t6 = c2 * model.expression;
+  const Real t9 = t6 * model.c1;
+  const Real t10 = t4 * model.c1;
   const Real t13 = state.z[0] + state.z[1];
   const Real t17 = model.c1 * (state.z[0] - state.z[1]);
   const Real t21 = t17 * (c2 * (t9 * t13) + s2 * (t10 * t13));
@@ -388,30 +392,29 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t43 = t38 * t42;
   const Real rdf0t_z = t22 * Real(9.0);
   const Real rdf1t_z = t23 * Real(9.0);
+  const Real rQp2 = t21 * model.mr_x;
   const Real zw_2 = t17 * t17;
-  const Real t49 = h2b_x * zw_2;
-  const Real t50 = h2b_y * zw_2;
-  const Real rf1_z = rdf1t_z + t50;
-  const Real rf0_z = rdf0t_z - t49;
-  const Real t53 = t21 * model.mr_x;
+  const Real rdf2_x = h2b_x * zw_2;
+  const Real rdf2_y = h2b_y * zw_2;
+  const Real rf1_z = rdf1t_z + rdf2_y;
+  const Real rf0_z = rdf0t_z - rdf2_x;
   const Real t58 = t9 * rf0_z - t10 * rf1_z;
-  const Real t59 = model.c1 * t53;
-  const Real t61 = t59 + (input.u[1] - t58);
-  const Real t66 = (t43 * t61 + (t59 - (input.u[0] - t58))) / (t40 - t38 * t43);
-  const Real t69 = t42 * t61 + t43 * t66;
-  const Real t70 = t66 - t69;
-  const Real t76 = model.c1 * (t66 + t69);
+  const Real t59 = model.c1 * rQp2;
+  const Real t61 = t58 - (input.u[1] + t59);
+  const Real t66 = (t58 - (input.u[0] - (t59 - t43 * t61))) / (t40 - t38 * t43);
+  const Real t69 = t42 * t61 - t43 * t66;
+  const Real t70 = t66 + t69;
+  const Real t76 = model.c1 * (t66 - t69);
   const Real rdf0t_z_2 = Real(9.0) * (t22 - t9 * t70);
   const Real rdf1t_z_2 = Real(9.0) * (t23 + t10 * t70);
   const Real rdn2_z = t76 * model.S2b_zz;
-  const Real rf1_z_2 = h2b_x * t76 - (t50 + rdf1t_z_2);
-  const Real rf0_z_2 = h2b_y * t76 + (t49 - rdf0t_z_2);
-  const Real t94 = left_wheelx3_y * rf0_z_2 - left_wheelx3_x * rf1_z_2;
-  const Real t95 = t53 - rdn2_z;
-  lambda[0] = -(((left_wheelx3_x + left_wheelx3_x) * rf0_z_2 + (left_wheelx3_y + left_wheelx3_y) * rf1_z_2) *
-      model.c12);
-  lambda[1] = model.c12 * (t94 - t95);
-  lambda[2] = model.c12 * (t94 + t95);
+  const Real rf1_z_2 = rdf1t_z_2 + (rdf2_y - h2b_x * t76);
+  const Real rf0_z_2 = rdf0t_z_2 - (rdf2_x + h2b_y * t76);
+  const Real t94 = t6 * rf0_z_2 - t4 * rf1_z_2;
+  const Real t95 = rQp2 - rdn2_z;
+  lambda[0] = ((t4 + t4) * rf0_z_2 + (t6 + t6) * rf1_z_2) * model.c12;
+  lambda[1] = -(model.c12 * (t94 + t95));
+  lambda[2] = -(model.c12 * (t94 - t95));
 }
 
 // `input` may be a function that gives the Input at the state of a stage.

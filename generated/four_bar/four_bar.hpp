@@ -184,7 +184,7 @@ template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1][1]) noexcept;
 
 /// Inertia terms k_bar: Coriolis, centrifugal and those of prescribed motion; no gravity.
-/// 77 operations (55 mul, 21 add and sub, 1 div), 6 sin and cos.
+/// 77 operations (53 mul, 23 add and sub, 1 div), 6 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noexcept;
 
@@ -196,14 +196,14 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
     noexcept;
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
-/// 103 operations (67 mul, 34 add and sub, 2 div), 6 sin and cos.
+/// 103 operations (65 mul, 36 add and sub, 2 div), 6 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[1]) noexcept;
 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
-/// 101 operations (66 mul, 34 add and sub, 1 div), 6 sin and cos.
+/// 101 operations (64 mul, 36 add and sub, 1 div), 6 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[1], Real
     (&tau)[1]) noexcept;
@@ -239,7 +239,7 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
 
 /// Multipliers lambda of M zdot = k_bar - q_bar - G^T lambda over all coordinates of the tree; the force of the
 /// constraints is -G^T lambda. N; N m for rows without a length.
-/// 127 operations (81 mul, 44 add and sub, 2 div), 6 sin and cos.
+/// 127 operations (79 mul, 46 add and sub, 2 div), 6 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void constraint_forces(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&lambda)[2]) noexcept;

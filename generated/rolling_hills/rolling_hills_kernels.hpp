@@ -290,9 +290,9 @@ Model<Real>::Model(const Parameters& parameters) noexcept {
   c11 = Real(1.0) / S0b_zz_2;
   c12 = Real(1.0) / Jy0;
   c13 = Real(1.0) / mass;
-  c15 = q_2 * c13;
-  c17 = Real(0.5) * mass;
-  c14 = Real(0.5) * radius;
+  c14 = q_2 * c13;
+  c16 = Real(0.5) * mass;
+  c17 = Real(0.5) * radius;
   c18 = Real(1.0) / S0b_zz;
   c19 = kdS00 * c11;
 }
@@ -713,101 +713,100 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real groundgga_2 = groundggj_2 * groundggd;
   const Real groundgga_3 = groundggj_3 * groundggd;
   const Real groundgga_4 = groundggj * groundggd;
-  const Real t663 = t423 * t606 + t400 * t616;
-  const Real t670 = q0d3 * t601 + (q0d2 * t606 - (q0d1 * t611 + t401 * t616));
-  const Real t674 = q0d2 * t616 - (q0d3 * t611 - (t401 * t606 - q0d1 * t601));
-  const Real t676 = q0r0_y * t663 + q0r1_y * t670;
-  const Real t680 = t395 * (groundggi * groundggi);
-  const Real t682 = q0r2_y * t670 + q0r0_y * t674;
-  const Real t684 = q0r2_y * t663 + q0r1_y * t674;
-  const Real t685 = t393 * t674;
-  const Real t687 = t684 - (t406 * t663 + expression_64 * t676);
-  const Real t691 = t682 - (expression_67 * t676 + t417 * t670);
-  const Real t699 = t680 * (expression_64 * (t682 + t691) - (t685 - expression_67 * (t684 + t687)));
-  const Real t705 = state.z[1] - model.radius * (groundggi * t687 - groundgge_y * t699);
-  const Real t707 = state.z[0] + model.radius * (groundggi * t691 + groundgge_x * t699);
+  const Real t666 = q0d1 * t611 + (t401 * t616 - (q0d2 * t606 + q0d3 * t601));
+  const Real t670 = q0d3 * t611 - (t401 * t606 - (q0d1 * t601 - q0d2 * t616));
+  const Real t674 = q0r2_y * t666 + q0r0_y * t670;
+  const Real t676 = t393 * t670;
+  const Real t677 = t423 * t606 + t400 * t616;
+  const Real t679 = q0r1_y * t666 - q0r0_y * t677;
+  const Real t681 = q0r1_y * t670 - q0r2_y * t677;
+  const Real t683 = t417 * t666;
+  const Real t684 = expression_67 * t679;
+  const Real t687 = t684 - (t674 - t683);
+  const Real t690 = expression_64 * t679 - (t681 + t406 * t677);
+  const Real t698 = t395 * (groundggi * groundggi);
+  const Real t699 = (expression_64 * (t674 - t687) - (t676 - expression_67 * (t681 - t690))) * t698;
+  const Real t705 = state.z[1] - model.radius * (groundggi * t690 + groundgge_y * t699);
+  const Real t707 = state.z[0] + model.radius * (groundggi * t687 - groundgge_x * t699);
   const Real t710 = groundgga * t707 - groundgga_2 * t705;
   const Real t713 = groundgga_3 * t707 - groundgga_4 * t705;
-  const Real t714 = Real(2.0) * t422;
-  const Real t715 = Real(2.0) * t421;
-  const Real t716 = Real(0.5) * t430;
-  const Real t717 = Real(0.5) * t435;
-  const Real t718 = Real(0.5) * t440;
-  const Real t719 = Real(0.5) * t445;
-  const Real t734 = t611 * t714;
-  const Real t735 = t611 * t715;
-  const Real t739 = t601 * t714;
-  const Real t741 = t420 * Real(4.0);
-  const Real t743 = t601 * t715;
-  const Real t764 = expression_68 * t710 - expression_69 * t713;
-  const Real t766 = expression_69 * t710 - expression_70 * t713;
-  const Real t771 = t413 * t764;
-  const Real t789 = t404 * t766;
-  const Real t792 = expression_67 * t764 - expression_64 * t766;
-  const Real t800 = Real(0.5) * (groundgo_4 * t554 * t789);
-  const Real t804 = Real(0.5) * (t528 * (groundgo_3 * (t771 - t789)));
-  const Real t812 = t413 * t670;
-  const Real t813 = t392 * t766 + t404 * t663;
-  const Real t817 = q0r2_y * state.z[4];
-  const Real t818 = q0r1_y * state.z[4];
-  const Real t821 = t817 - (q0r2_z * state.z[5] - q0r2_x * state.z[3]);
-  const Real t823 = t818 - (q0r1_z * state.z[5] + q0r1_x * state.z[3]);
-  const Real t825 = q0r0_y * state.z[4] + (q0r0_z * state.z[5] - q0r0_x * state.z[3]);
-  const Real t837 = groundgv_x * t818 - (state.z[3] * (q0r1_x * groundgv_x) + (state.z[5] * (q0r1_z *
-      groundgv_x) + (state.z[2] - groundgv_y * t825)));
-  const Real t842 = groundgv_z * t825 - (groundgv_x * t817 + (q0r2_x * (groundgv_x * state.z[3]) - (state.z[1]
-      + state.z[5] * (q0r2_z * groundgv_x))));
-  const Real t845 = groundgo_4 * t804 - groundgo_3 * t800;
-  const Real t900 = groundgs_xx * t764 - (t691 - groundgs_xy * t766);
-  const Real t902 = groundgs_yy * t766 + (t687 + groundgs_xy * t764);
-  const Real t910 = expression_64 * t682 + (expression_67 * t684 + (groundgs_yz * t766 - (t685 + groundgs_xz *
-      t764)));
-  const Real t914 = t910 - (expression_64 * t900 - (expression_67 * t902 + (groundgge_x * t764 + groundgge_y *
-      t766)));
-  const Real t921 = t680 * t914;
-  const Real t927 = groundggl * t900 - model.radius * (groundgge_x * t921);
-  const Real t930 = groundggl * t902 - model.radius * (groundgge_y * t921);
-  const Real t931 = model.radius * (groundggi * t910 - groundgge_z * t921);
+  const Real t715 = Real(0.5) * t435;
+  const Real t716 = Real(0.5) * t440;
+  const Real t717 = Real(0.5) * t445;
+  const Real t718 = Real(0.5) * t430;
+  const Real t726 = Real(2.0) * t422;
+  const Real t727 = Real(2.0) * t421;
+  const Real t733 = t420 * Real(4.0);
+  const Real t739 = t601 * t727;
+  const Real t740 = t616 * t726;
+  const Real t741 = t601 * t726;
+  const Real t745 = t606 * t727;
+  const Real t747 = t413 * t666;
+  const Real t751 = expression_68 * t710 - expression_69 * t713;
+  const Real t753 = expression_69 * t710 - expression_70 * t713;
+  const Real t758 = t413 * t751;
+  const Real t771 = t404 * t753;
+  const Real t774 = expression_67 * t751 - expression_64 * t753;
+  const Real t779 = t392 * t753 + t404 * t677;
+  const Real t793 = Real(0.5) * (t771 * (groundgo_4 * t554));
+  const Real t797 = Real(0.5) * ((t758 - t771) * (groundgo_3 * t528));
+  const Real t818 = t411 * t677 + (t419 * t670 + t416 * t666);
+  const Real t832 = t684 + (t683 - (groundgs_xx * t751 + (t674 + groundgs_xy * t753)));
+  const Real t837 = groundgs_yy * t753 + (t690 + groundgs_xy * t751);
+  const Real t842 = expression_64 * t674 + (groundgs_xz * t751 - (t676 + (groundgs_yz * t753 - expression_67 *
+      t681)));
+  const Real t848 = expression_67 * t837 - (t842 - (expression_64 * t832 + (groundgge_x * t751 + groundgge_y *
+      t753)));
+  const Real t852 = t698 * t848;
+  const Real t863 = q0r2_z * state.z[5] - (q0r2_y * state.z[4] + q0r2_x * state.z[3]);
+  const Real t866 = q0r1_z * state.z[5] - (q0r1_y * state.z[4] - q0r1_x * state.z[3]);
+  const Real t869 = q0r0_z * state.z[5] + (q0r0_y * state.z[4] - q0r0_x * state.z[3]);
+  const Real t875 = groundgv_x * t866 + (state.z[2] - groundgv_y * t869);
+  const Real t884 = groundggl * t837 - model.radius * (groundgge_y * t852);
+  const Real t887 = groundggl * t842 + model.radius * (groundgge_z * t852);
+  const Real t906 = groundgv_z * t869 + (state.z[1] + groundgv_x * t863);
+  const Real t910 = groundgo_4 * t797 - groundgo_3 * t793;
+  const Real t925 = model.radius * (groundggi * t832 + groundgge_x * t852);
   const Real rww00 = state.z[4] * state.z[5];
   const Real rww02 = state.z[3] * state.z[4];
   const Real rdn0_x = rww00 * model.kdS00;
   const Real rdn0_z = rww02 * model.kdS00;
-  const Real t943 = model.c11 * rdn0_x;
-  const Real t944 = model.c11 * rdn0_z;
-  const Real t984 = t606 * (t739 + (t735 + (state.z[4] * t719 + (state.z[3] * t717 + (state.z[5] * t716 +
-      (t739 + (t735 + t606 * t741))))))) - (t616 * (t743 - (t734 + (t616 * t741 + (t734 + (state.z[5] * t717 -
-      (state.z[3] * t716 + (state.z[4] * t718 + t743))))))) + (t453 * t944 + (t449 * t943 + (groundgo_3 *
-      model.c15 + ((t416 * t670 + (t419 * t674 - t411 * t663)) * (t396 * t804 - t914 * (groundgo_3 * t680) *
-      model.c14) - (t670 * (t397 * (expression_64 * t812 - (t391 * t771 + (t392 * t792 - (t407 * t663 + (t393
-      * t764 - t413 * t674)))))) + (t397 * t663 * (expression_67 * t813 - (t418 * t766 + (t404 * t674 - (t407
-      * t670 - t391 * t792)))) - ((t812 + (t813 - (t391 * t764 + Real(2.0) * t674))) * (t397 * t674) +
-      (state.z[5] * (t611 * t718) - (state.z[1] * (groundgo_3 * t766 + expression_67 * t804) + ((state.z[2] -
-      expression_64 * state.z[0]) * t804 + (state.z[0] * (groundgo_3 * t764) - (t611 * (state.z[4] * t717 -
-      state.z[3] * t719) + t601 * (state.z[5] * t719 - (state.z[4] * t716 - state.z[3] * t718)))))))))))))));
-  const Real t994 = t567 * t984 + (grounds1bn0_z * t944 + (grounds1bn0_x * t943 + (groundgy_z * model.c15 +
-      ((groundgy_z * t825 - groundgy_x * t821) * t930 + ((groundgy_z * t823 + groundgy_y * t821) * t927 -
-      ((groundgy_x * t823 + groundgy_y * t825) * t931 + ((groundgo_5 * t789 + groundgo * t845) * (groundgv_y *
-      t821 + (state.z[0] + groundgv_z * t823)) + (t837 * (groundgo_5 * t764 - expression_64 * t845) + t842 *
-      (t402 * t845 - groundgo_5 * t792)))))))));
-  const Real t1008 = t596 * (t585 * t994 + (t578 * t984 + (grounds2bn0_z * t944 + (grounds2bn0_x * t943 -
-      (groundgz_z * model.c15 + (groundgz_z * t825 * t930 + ((t513 * state.z[4] - (t519 * state.z[5] + t507 *
-      state.z[3])) * t927 + (groundgo_4 * t825 * t931 - (t800 * t842 - t837 * (groundgo_4 * t766 -
-      expression_67 * t800))))))))));
-  const Real t1010 = t584 * t994 - t585 * t1008;
-  const Real t1014 = t578 * t1008 - (t566 * t984 + t567 * t1010);
-  const Real t1015 = Real(4.9999999999999995e-11) * t1014;
-  const Real t1019 = Real(1.5000000000000002e-10) * t1010 - t567 * t1015;
-  const Real t1026 = t596 * (t585 * t1019 - (Real(2.5e-10) * t1008 + t578 * t1015));
-  const Real t1028 = t584 * t1019 - t585 * t1026;
-  const Real t1033 = t578 * t1026 - (t567 * t1028 - (t1014 + t566 * t1015));
-  const Real t1034 = t1010 + t1028;
-  const Real t1035 = t1008 + t1026;
-  zdot[0] = -(model.c13 * (expression_64 * groundgo_3 * t1033 - groundgy_x * t1034));
-  zdot[1] = -(model.c13 * (groundgo_4 * t1035 - (expression_67 * groundgo_3 * t1033 + groundgy_y * t1034)));
-  zdot[2] = model.c13 * (groundgz_z * t1035 + (groundgo_3 * t1033 + groundgy_z * t1034) - model.q_2);
-  zdot[3] = model.c11 * (grounds2bn0_x * t1035 - (grounds1bn0_x * t1034 - (rdn0_x - t449 * t1033)));
-  zdot[4] = model.c12 * (grounds1bn0_y * t1034 - grounds2bn0_y * t1035);
-  zdot[5] = -(model.c11 * (grounds2bn0_z * t1035 - (grounds1bn0_z * t1034 - (rdn0_z - t453 * t1033))));
+  const Real t933 = model.c11 * rdn0_x;
+  const Real t934 = model.c11 * rdn0_z;
+  const Real t975 = t616 * (t739 + (t739 + (state.z[3] * t718 - (t616 * t733 + Real(0.5) * (t435 * state.z[5]
+      - t440 * state.z[4]))))) - (t606 * (t606 * t733 + (t741 + (t741 + (state.z[5] * t718 + (state.z[3] *
+      t715 + state.z[4] * t717))))) - (t453 * t934 + (t449 * t933 + (groundgo_3 * model.c14 + (model.radius *
+      (t848 * (t395 * (groundggi * t395 * (groundgo_3 * t818)))) - (state.z[1] * (groundgo_3 * t753 +
+      expression_67 * t797) + (t797 * (t396 * t818 + (state.z[2] - expression_64 * state.z[0])) + (t677 *
+      (t397 * (expression_67 * t779 - (t391 * t774 + (t407 * t666 - (t404 * t670 - t418 * t753))))) +
+      ((expression_64 * t747 + (t392 * t774 - (t407 * t677 + (t413 * t670 + (t393 * t751 - t391 * t758))))) *
+      (t397 * t666) + (state.z[0] * (groundgo_3 * t751) + (t670 * (t397 * (t779 + (Real(2.0) * t670 - (t747 +
+      t391 * t751)))) + (t601 * (state.z[4] * t718 - (state.z[5] * t717 + state.z[3] * t716)) + t611 * (t745 +
+      (t740 + (t745 - (state.z[5] * t716 + (state.z[4] * t715 - (state.z[3] * t717 + t740))))))))))))))))));
+  const Real t985 = t567 * t975 - (grounds1bn0_z * t934 + (grounds1bn0_x * t933 + (groundgy_z * model.c14 +
+      ((groundgy_z * t866 + groundgy_y * t863) * t925 + ((groundgo_5 * t771 + groundgo * t910) * (groundgv_z *
+      t866 - (state.z[0] - groundgv_y * t863)) + (t906 * (groundgo_5 * t774 - t402 * t910) + (t875 *
+      (groundgo_5 * t751 - expression_64 * t910) + ((groundgy_z * t869 + groundgy_x * t863) * t884 - t887 *
+      (groundgy_x * t866 - groundgy_y * t869)))))))));
+  const Real t998 = t596 * (t585 * t985 + (t578 * t975 - (grounds2bn0_z * t934 + (grounds2bn0_x * t933 -
+      (groundgz_z * model.c14 + ((t519 * state.z[5] + (t507 * state.z[3] - t513 * state.z[4])) * t925 + (t793
+      * (expression_67 * t875 - t906) + (t869 * (groundgz_z * t884 - groundgo_4 * t887) - groundgo_4 * t753 *
+      t875))))))));
+  const Real t1000 = t584 * t985 - t585 * t998;
+  const Real t1004 = t578 * t998 - (t566 * t975 + t567 * t1000);
+  const Real t1005 = Real(4.9999999999999995e-11) * t1004;
+  const Real t1009 = Real(1.5000000000000002e-10) * t1000 - t567 * t1005;
+  const Real t1016 = t596 * (t585 * t1009 - (Real(2.5e-10) * t998 + t578 * t1005));
+  const Real t1018 = t584 * t1009 - t585 * t1016;
+  const Real t1023 = t578 * t1016 - (t567 * t1018 - (t1004 + t566 * t1005));
+  const Real t1024 = t1000 + t1018;
+  const Real t1025 = t998 + t1016;
+  zdot[0] = model.c13 * (expression_64 * groundgo_3 * t1023 - groundgy_x * t1024);
+  zdot[1] = model.c13 * (groundgo_4 * t1025 - (expression_67 * groundgo_3 * t1023 + groundgy_y * t1024));
+  zdot[2] = -(model.c13 * (groundgz_z * t1025 + (groundgo_3 * t1023 + groundgy_z * t1024) + model.q_2));
+  zdot[3] = -(model.c11 * (grounds2bn0_x * t1025 - (grounds1bn0_x * t1024 + (rdn0_x + t449 * t1023))));
+  zdot[4] = -(model.c12 * (grounds1bn0_y * t1024 - grounds2bn0_y * t1025));
+  zdot[5] = model.c11 * (grounds2bn0_z * t1025 - (grounds1bn0_z * t1024 + (rdn0_z + t453 * t1023)));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -834,7 +833,7 @@ template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept {
   const Real Tfree = (state.z[4] * state.z[4] * model.Jy0 + (state.z[3] * state.z[3] + state.z[5] *
       state.z[5]) * model.S0b_zz) * Real(0.5) + (state.z[2] * state.z[2] + (state.z[0] * state.z[0] +
-      state.z[1] * state.z[1])) * model.c17;
+      state.z[1] * state.z[1])) * model.c16;
   return Tfree;
 }
 
@@ -849,7 +848,7 @@ void outputs(const Model<Real>& model, const State<Real>& state, const Input<Rea
     noexcept {
   const Real Tfree = (state.z[4] * state.z[4] * model.Jy0 + (state.z[3] * state.z[3] + state.z[5] *
       state.z[5]) * model.S0b_zz) * Real(0.5) + (state.z[2] * state.z[2] + (state.z[0] * state.z[0] +
-      state.z[1] * state.z[1])) * model.c17;
+      state.z[1] * state.z[1])) * model.c16;
   const Real V = state.y[2] * model.q_2;
   result.kinetic = Tfree;
   result.potential = V;
@@ -1088,7 +1087,7 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real t401 = state.y[5] * Real(0.5);
   const Real t402 = state.y[6] * Real(0.5);
   const Real groundggi = Real(1.0) / groundggr;
-  const Real t407 = groundgo_3 * groundggi * model.c14;
+  const Real t407 = groundgo_3 * groundggi * model.c17;
   const Real t408 = expression_65 * groundgo_3;
   const Real t409 = expression_68 * groundgo_3;
   const Real t410 = Real(2.0) * state.y[3];
@@ -1407,7 +1406,7 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real t1054 = Real(0.5) * t679;
   const Real t1055 = Real(0.5) * t680;
   const Real groundggi_2 = Real(1.0) / groundggr_2;
-  const Real t1059 = model.c14 * (groundgo_8 * groundggi_2);
+  const Real t1059 = model.c17 * (groundgo_8 * groundggi_2);
   const Real t1062 = Real(2.0) * t677;
   const Real t1065 = expression_132 + expression_132;
   const Real t1066 = q0r1_y_2 * t1065;
@@ -1728,7 +1727,7 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real t401 = state.y[5] * Real(0.5);
   const Real t402 = state.y[6] * Real(0.5);
   const Real groundggi = Real(1.0) / groundggr;
-  const Real t407 = groundgo_3 * groundggi * model.c14;
+  const Real t407 = groundgo_3 * groundggi * model.c17;
   const Real t410 = Real(2.0) * state.y[3];
   const Real t413 = expression_66 + expression_66;
   const Real t414 = q0r1_y * t413;
@@ -2119,93 +2118,92 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real groundgga_2 = groundggj_2 * groundggd;
   const Real groundgga_3 = groundggj_3 * groundggd;
   const Real groundgga_4 = groundggj * groundggd;
-  const Real t661 = t421 * t604 + t398 * t614;
-  const Real t668 = q0d3 * t599 + (q0d2 * t604 - (q0d1 * t609 + t399 * t614));
-  const Real t672 = q0d2 * t614 - (q0d3 * t609 - (t399 * t604 - q0d1 * t599));
-  const Real t674 = q0r0_y * t661 + q0r1_y * t668;
-  const Real t678 = t395 * (groundggi * groundggi);
-  const Real t680 = q0r2_y * t668 + q0r0_y * t672;
-  const Real t682 = q0r2_y * t661 + q0r1_y * t672;
-  const Real t683 = t393 * t672;
-  const Real t685 = t682 - (t404 * t661 + expression_64 * t674);
-  const Real t689 = t680 - (expression_67 * t674 + t415 * t668);
-  const Real t697 = t678 * (expression_64 * (t680 + t689) - (t683 - expression_67 * (t682 + t685)));
-  const Real t703 = state.z[1] - model.radius * (groundggi * t685 - groundgge_y * t697);
-  const Real t705 = state.z[0] + model.radius * (groundggi * t689 + groundgge_x * t697);
+  const Real t664 = q0d1 * t609 + (t399 * t614 - (q0d2 * t604 + q0d3 * t599));
+  const Real t668 = q0d3 * t609 - (t399 * t604 - (q0d1 * t599 - q0d2 * t614));
+  const Real t672 = q0r2_y * t664 + q0r0_y * t668;
+  const Real t674 = t393 * t668;
+  const Real t675 = t421 * t604 + t398 * t614;
+  const Real t677 = q0r1_y * t664 - q0r0_y * t675;
+  const Real t679 = q0r1_y * t668 - q0r2_y * t675;
+  const Real t681 = t415 * t664;
+  const Real t682 = expression_67 * t677;
+  const Real t685 = t682 - (t672 - t681);
+  const Real t688 = expression_64 * t677 - (t679 + t404 * t675);
+  const Real t696 = t395 * (groundggi * groundggi);
+  const Real t697 = (expression_64 * (t672 - t685) - (t674 - expression_67 * (t679 - t688))) * t696;
+  const Real t703 = state.z[1] - model.radius * (groundggi * t688 + groundgge_y * t697);
+  const Real t705 = state.z[0] + model.radius * (groundggi * t685 - groundgge_x * t697);
   const Real t708 = groundgga * t705 - groundgga_2 * t703;
   const Real t711 = groundgga_3 * t705 - groundgga_4 * t703;
-  const Real t712 = Real(2.0) * t420;
-  const Real t713 = Real(2.0) * t419;
-  const Real t714 = Real(0.5) * t428;
-  const Real t715 = Real(0.5) * t433;
-  const Real t716 = Real(0.5) * t438;
-  const Real t717 = Real(0.5) * t443;
-  const Real t732 = t609 * t712;
-  const Real t733 = t609 * t713;
-  const Real t737 = t599 * t712;
-  const Real t739 = t418 * Real(4.0);
-  const Real t741 = t599 * t713;
-  const Real t762 = expression_68 * t708 - expression_69 * t711;
-  const Real t764 = expression_69 * t708 - expression_70 * t711;
-  const Real t769 = t411 * t762;
-  const Real t787 = t402 * t764;
-  const Real t790 = expression_67 * t762 - expression_64 * t764;
-  const Real t798 = Real(0.5) * (groundgo_4 * t552 * t787);
-  const Real t802 = Real(0.5) * (t526 * (groundgo_3 * (t769 - t787)));
-  const Real t810 = t411 * t668;
-  const Real t811 = t392 * t764 + t402 * t661;
-  const Real t815 = q0r2_y * state.z[4];
-  const Real t816 = q0r1_y * state.z[4];
-  const Real t819 = t815 - (q0r2_z * state.z[5] - q0r2_x * state.z[3]);
-  const Real t821 = t816 - (q0r1_z * state.z[5] + q0r1_x * state.z[3]);
-  const Real t823 = q0r0_y * state.z[4] + (q0r0_z * state.z[5] - q0r0_x * state.z[3]);
-  const Real t835 = groundgv_x * t816 - (state.z[3] * (q0r1_x * groundgv_x) + (state.z[5] * (q0r1_z *
-      groundgv_x) + (state.z[2] - groundgv_y * t823)));
-  const Real t840 = groundgv_z * t823 - (groundgv_x * t815 + (q0r2_x * (groundgv_x * state.z[3]) - (state.z[1]
-      + state.z[5] * (q0r2_z * groundgv_x))));
-  const Real t843 = groundgo_4 * t802 - groundgo_3 * t798;
-  const Real t898 = groundgs_xx * t762 - (t689 - groundgs_xy * t764);
-  const Real t900 = groundgs_yy * t764 + (t685 + groundgs_xy * t762);
-  const Real t908 = expression_64 * t680 + (expression_67 * t682 + (groundgs_yz * t764 - (t683 + groundgs_xz *
-      t762)));
-  const Real t912 = t908 - (expression_64 * t898 - (expression_67 * t900 + (groundgge_x * t762 + groundgge_y *
-      t764)));
-  const Real t919 = t678 * t912;
-  const Real t925 = groundggl * t898 - model.radius * (groundgge_x * t919);
-  const Real t928 = groundggl * t900 - model.radius * (groundgge_y * t919);
-  const Real t929 = model.radius * (groundggi * t908 - groundgge_z * t919);
+  const Real t713 = Real(0.5) * t433;
+  const Real t714 = Real(0.5) * t438;
+  const Real t715 = Real(0.5) * t443;
+  const Real t716 = Real(0.5) * t428;
+  const Real t724 = Real(2.0) * t420;
+  const Real t725 = Real(2.0) * t419;
+  const Real t731 = t418 * Real(4.0);
+  const Real t737 = t599 * t725;
+  const Real t738 = t614 * t724;
+  const Real t739 = t599 * t724;
+  const Real t743 = t604 * t725;
+  const Real t745 = t411 * t664;
+  const Real t749 = expression_68 * t708 - expression_69 * t711;
+  const Real t751 = expression_69 * t708 - expression_70 * t711;
+  const Real t756 = t411 * t749;
+  const Real t769 = t402 * t751;
+  const Real t772 = expression_67 * t749 - expression_64 * t751;
+  const Real t777 = t392 * t751 + t402 * t675;
+  const Real t791 = Real(0.5) * (t769 * (groundgo_4 * t552));
+  const Real t795 = Real(0.5) * ((t756 - t769) * (groundgo_3 * t526));
+  const Real t816 = t409 * t675 + (t417 * t668 + t414 * t664);
+  const Real t830 = t682 + (t681 - (groundgs_xx * t749 + (t672 + groundgs_xy * t751)));
+  const Real t835 = groundgs_yy * t751 + (t688 + groundgs_xy * t749);
+  const Real t840 = expression_64 * t672 + (groundgs_xz * t749 - (t674 + (groundgs_yz * t751 - expression_67 *
+      t679)));
+  const Real t846 = expression_67 * t835 - (t840 - (expression_64 * t830 + (groundgge_x * t749 + groundgge_y *
+      t751)));
+  const Real t850 = t696 * t846;
+  const Real t861 = q0r2_z * state.z[5] - (q0r2_y * state.z[4] + q0r2_x * state.z[3]);
+  const Real t864 = q0r1_z * state.z[5] - (q0r1_y * state.z[4] - q0r1_x * state.z[3]);
+  const Real t867 = q0r0_z * state.z[5] + (q0r0_y * state.z[4] - q0r0_x * state.z[3]);
+  const Real t873 = groundgv_x * t864 + (state.z[2] - groundgv_y * t867);
+  const Real t882 = groundggl * t835 - model.radius * (groundgge_y * t850);
+  const Real t885 = groundggl * t840 + model.radius * (groundgge_z * t850);
+  const Real t904 = groundgv_z * t867 + (state.z[1] + groundgv_x * t861);
+  const Real t908 = groundgo_4 * t795 - groundgo_3 * t791;
+  const Real t923 = model.radius * (groundggi * t830 + groundgge_x * t850);
   const Real rww00 = state.z[4] * state.z[5];
   const Real rww02 = state.z[3] * state.z[4];
-  const Real t939 = rww00 * model.c19;
-  const Real t940 = rww02 * model.c19;
-  const Real t980 = t604 * (t737 + (t733 + (state.z[4] * t717 + (state.z[3] * t715 + (state.z[5] * t714 +
-      (t737 + (t733 + t604 * t739))))))) - (t614 * (t741 - (t732 + (t614 * t739 + (t732 + (state.z[5] * t715 -
-      (state.z[3] * t714 + (state.z[4] * t716 + t741))))))) + (t451 * t940 + (t447 * t939 + (groundgo_3 *
-      model.c15 + ((t414 * t668 + (t417 * t672 - t409 * t661)) * (t396 * t802 - t912 * (groundgo_3 * t678) *
-      model.c14) - (t668 * (t397 * (expression_64 * t810 - (t391 * t769 + (t392 * t790 - (t405 * t661 + (t393
-      * t762 - t411 * t672)))))) + (t397 * t661 * (expression_67 * t811 - (t416 * t764 + (t402 * t672 - (t405
-      * t668 - t391 * t790)))) - ((t810 + (t811 - (t391 * t762 + Real(2.0) * t672))) * (t397 * t672) +
-      (state.z[5] * (t609 * t716) - (state.z[1] * (groundgo_3 * t764 + expression_67 * t802) + ((state.z[2] -
-      expression_64 * state.z[0]) * t802 + (state.z[0] * (groundgo_3 * t762) - (t609 * (state.z[4] * t715 -
-      state.z[3] * t717) + t599 * (state.z[5] * t717 - (state.z[4] * t714 - state.z[3] * t716)))))))))))))));
-  const Real t990 = t565 * t980 + (grounds1bn0_z * t940 + (grounds1bn0_x * t939 + (groundgy_z * model.c15 +
-      ((groundgy_z * t823 - groundgy_x * t819) * t928 + ((groundgy_z * t821 + groundgy_y * t819) * t925 -
-      ((groundgy_x * t821 + groundgy_y * t823) * t929 + ((groundgo_5 * t787 + groundgo * t843) * (groundgv_y *
-      t819 + (state.z[0] + groundgv_z * t821)) + (t835 * (groundgo_5 * t762 - expression_64 * t843) + t840 *
-      (t400 * t843 - groundgo_5 * t790)))))))));
-  const Real t1004 = t594 * (t583 * t990 + (t576 * t980 + (grounds2bn0_z * t940 + (grounds2bn0_x * t939 -
-      (groundgz_z * model.c15 + (groundgz_z * t823 * t928 + ((t511 * state.z[4] - (t517 * state.z[5] + t505 *
-      state.z[3])) * t925 + (groundgo_4 * t823 * t929 - (t798 * t840 - t835 * (groundgo_4 * t764 -
-      expression_67 * t798))))))))));
-  const Real t1006 = t582 * t990 - t583 * t1004;
-  const Real t1010 = t576 * t1004 - (t564 * t980 + t565 * t1006);
-  const Real t1011 = Real(4.9999999999999995e-11) * t1010;
-  const Real t1015 = Real(1.5000000000000002e-10) * t1006 - t565 * t1011;
-  const Real t1022 = t594 * (t583 * t1015 - (Real(2.5e-10) * t1004 + t576 * t1011));
-  const Real t1024 = t582 * t1015 - t583 * t1022;
-  lambda[0] = -(t576 * t1022 - (t565 * t1024 - (t1010 + t564 * t1011)));
-  lambda[1] = -(t1006 + t1024);
-  lambda[2] = t1004 + t1022;
+  const Real t929 = rww00 * model.c19;
+  const Real t930 = rww02 * model.c19;
+  const Real t971 = t614 * (t737 + (t737 + (state.z[3] * t716 - (t614 * t731 + Real(0.5) * (t433 * state.z[5]
+      - t438 * state.z[4]))))) - (t604 * (t604 * t731 + (t739 + (t739 + (state.z[5] * t716 + (state.z[3] *
+      t713 + state.z[4] * t715))))) - (t451 * t930 + (t447 * t929 + (groundgo_3 * model.c14 + (model.radius *
+      (t846 * (t395 * (groundggi * t395 * (groundgo_3 * t816)))) - (state.z[1] * (groundgo_3 * t751 +
+      expression_67 * t795) + (t795 * (t396 * t816 + (state.z[2] - expression_64 * state.z[0])) + (t675 *
+      (t397 * (expression_67 * t777 - (t391 * t772 + (t405 * t664 - (t402 * t668 - t416 * t751))))) +
+      ((expression_64 * t745 + (t392 * t772 - (t405 * t675 + (t411 * t668 + (t393 * t749 - t391 * t756))))) *
+      (t397 * t664) + (state.z[0] * (groundgo_3 * t749) + (t668 * (t397 * (t777 + (Real(2.0) * t668 - (t745 +
+      t391 * t749)))) + (t599 * (state.z[4] * t716 - (state.z[5] * t715 + state.z[3] * t714)) + t609 * (t743 +
+      (t738 + (t743 - (state.z[5] * t714 + (state.z[4] * t713 - (state.z[3] * t715 + t738))))))))))))))))));
+  const Real t981 = t565 * t971 - (grounds1bn0_z * t930 + (grounds1bn0_x * t929 + (groundgy_z * model.c14 +
+      ((groundgy_z * t864 + groundgy_y * t861) * t923 + ((groundgo_5 * t769 + groundgo * t908) * (groundgv_z *
+      t864 - (state.z[0] - groundgv_y * t861)) + (t904 * (groundgo_5 * t772 - t400 * t908) + (t873 *
+      (groundgo_5 * t749 - expression_64 * t908) + ((groundgy_z * t867 + groundgy_x * t861) * t882 - t885 *
+      (groundgy_x * t864 - groundgy_y * t867)))))))));
+  const Real t994 = t594 * (t583 * t981 + (t576 * t971 - (grounds2bn0_z * t930 + (grounds2bn0_x * t929 -
+      (groundgz_z * model.c14 + ((t517 * state.z[5] + (t505 * state.z[3] - t511 * state.z[4])) * t923 + (t791
+      * (expression_67 * t873 - t904) + (t867 * (groundgz_z * t882 - groundgo_4 * t885) - groundgo_4 * t751 *
+      t873))))))));
+  const Real t996 = t582 * t981 - t583 * t994;
+  const Real t1000 = t576 * t994 - (t564 * t971 + t565 * t996);
+  const Real t1001 = Real(4.9999999999999995e-11) * t1000;
+  const Real t1005 = Real(1.5000000000000002e-10) * t996 - t565 * t1001;
+  const Real t1012 = t594 * (t583 * t1005 - (Real(2.5e-10) * t994 + t576 * t1001));
+  const Real t1014 = t582 * t1005 - t583 * t1012;
+  lambda[0] = t576 * t1012 - (t565 * t1014 - (t1000 + t564 * t1001));
+  lambda[1] = t996 + t1014;
+  lambda[2] = -(t994 + t1012);
 }
 
 template <class Real> JOURDAIN_FUNCTION

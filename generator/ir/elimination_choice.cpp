@@ -55,15 +55,17 @@ bool takes_less(const Tried& a, const Tried& b) { return a.operations < b.operat
 /// Of all orders those that take least are improved by moving vertices about, and of these again those that take least.
 EliminationTrials::Order best_of(EliminationTrials& trials, std::vector<Tried> tried, bool is_large) {
   struct Round {
-    std::size_t orders, work;  ///< for each, in products of partial derivatives
+    std::size_t orders;
+    EliminationTrials::Effort each;
   };
-  const std::vector<Round> some = {{8, 1'000'000}, {3, 4'000'000}, {1, 32'000'000}}, few = {{1, 4'000'000}};
+  const std::vector<Round> some = {{8, {1'000'000, 4}}, {3, {4'000'000, 6}}, {1, {32'000'000, 24}}},
+                           few = {{1, {4'000'000, 4}}};
   const auto sort = [&tried] { std::stable_sort(tried.begin(), tried.end(), takes_less); };
   sort();
   for (const Round& round : is_large ? few : some) {
     tried.resize(std::min(tried.size(), round.orders));
     for (Tried& t : tried) {
-      t.order = trials.improved(std::move(t.order), round.work);
+      t.order = trials.improved(std::move(t.order), round.each);
       t.operations = trials.operations(t.order);
     }
     sort();
@@ -103,8 +105,7 @@ std::vector<std::uint32_t> elimination_order(const Program& program, std::size_t
                                              const Surroundings& surroundings) {
   constexpr std::size_t kLarge = 5000;  // values from which on few choices are tried
   const auto share = [inner](double of) { return static_cast<std::size_t>(of * static_cast<double>(inner)); };
-  const OrderChoice& choice = surroundings.choice;
-  if (choice.forward) return prefix_first(inner, share(*choice.forward));
+  if (surroundings.forward) return prefix_first(inner, share(*surroundings.forward));
   const std::vector<Residue> values = residues(program, surroundings.leaf);
   std::vector<std::vector<EliminationTrials::Edge>> edges(operands.size());
   const std::vector<bool> fixed = fixed_values(program, surroundings.is_fixed);
@@ -118,7 +119,7 @@ std::vector<std::uint32_t> elimination_order(const Program& program, std::size_t
     }
   std::vector<Residue> known = computed(program, values, std::move(is_taken));
   for (const Fingerprint& value : surroundings.values) known.push_back(value.at[0]);
-  EliminationTrials trials(std::move(edges), inner, known, choice.draws);
+  EliminationTrials trials(std::move(edges), inner, known);
   const bool is_simple = takes_by_signs(program), is_large = inner > kLarge;
   using Shares = std::vector<double>;
   std::vector<Tried> tried;

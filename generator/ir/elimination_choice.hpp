@@ -13,19 +13,13 @@
 
 namespace jourdain::ir {
 
-/// How an order is found.
-struct OrderChoice {
-  /// This share of the program leaves operands first, then the others results first: nothing is looked for.
-  std::optional<double> forward;
-  std::uint64_t draws = 0;  ///< what is looked for at random is drawn anew for each
-};
-
 /// What the program is part of, so that an order of elimination is found that takes few operations there.
 struct Surroundings {
   std::function<bool(LeafKind, std::size_t)> is_fixed = is_made_with_the_model;  ///< leaves
   LeafFingerprint leaf;             ///< of what stands for leaves
   std::vector<Fingerprint> values;  ///< of what is computed anyway
-  OrderChoice choice;
+  /// This share of the program leaves operands first, then the others results first: nothing is looked for.
+  std::optional<double> forward;
 };
 
 /// Within a program where what `leaf` gives stands for leaves.

@@ -26,9 +26,7 @@ void drop_dead_ends(std::vector<std::vector<EliminationTrials::Edge>>& operands,
 /// The same in every run.
 class EliminationTrials::Draws {
  public:
-  explicit Draws(std::uint64_t draws) : seed_(kSeed + draws) {}
-
-  std::size_t below(std::size_t bound) { return scrambled(seed_, ++drawn_) % bound; }
+  std::size_t below(std::size_t bound) { return scrambled(kSeed, ++drawn_) % bound; }
 
   void shuffle(std::vector<std::size_t>& list) {
     for (std::size_t k = list.size(); k > 1; --k) std::swap(list[k - 1], list[below(k)]);
@@ -36,13 +34,12 @@ class EliminationTrials::Draws {
 
  private:
   static constexpr std::uint64_t kSeed = 0x656c696d696e6176u;
-  std::uint64_t seed_, drawn_ = 0;
+  std::uint64_t drawn_ = 0;
 };
 
 EliminationTrials::EliminationTrials(std::vector<std::vector<Edge>> operands, std::size_t inner,
-                                     const std::vector<Residue>& known, std::uint64_t draws)
+                                     const std::vector<Residue>& known)
     : inner_(inner),
-      draws_(draws),
       operands_trial_(operands.size()),
       users_trial_(operands.size()),
       slots_(1024),
@@ -286,21 +283,19 @@ void EliminationTrials::replace(Order& order, const Order& by, std::size_t first
   }
 }
 
-EliminationTrials::Order EliminationTrials::improved(Order order, std::size_t work) {
-  constexpr std::size_t kPatience = 4;      // sweeps that have to save
-  constexpr double kSaving = 0.003;         // of the operations
-  constexpr std::size_t kLittle = 100'000;  // work that is always spent
+EliminationTrials::Order EliminationTrials::improved(Order order, const Effort& effort) {
+  constexpr double kSaving = 0.003;  // of the operations
   if (order.size() < 2) return order;
   Order best = order;
-  Draws draws(draws_);
+  Draws draws;
   work_ = 0;
-  for (std::vector<std::size_t> fewest{operations(order)}; work_ < work;) {
-    sweep(order = regrouped(order, draws), draws, work);
+  for (std::vector<std::size_t> fewest{operations(order)}; work_ < effort.work;) {
+    sweep(order = regrouped(order, draws), draws, effort.work);
     const std::size_t count = operations(order);
     if (count < fewest.back()) best = order;
     fewest.push_back(std::min(count, fewest.back()));
-    if (fewest.size() <= kPatience || work_ < kLittle) continue;
-    const auto before = static_cast<double>(fewest[fewest.size() - 1 - kPatience]);
+    if (fewest.size() <= effort.patience) continue;
+    const auto before = static_cast<double>(fewest[fewest.size() - 1 - effort.patience]);
     if (static_cast<double>(fewest.back()) >= (1 - kSaving) * before) break;
   }
   return best;

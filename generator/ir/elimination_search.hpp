@@ -22,11 +22,16 @@ class EliminationTrials {
         false;  ///< a number, or made with the model: what is made from such ones alone costs nothing
   };
   using Order = std::vector<std::uint32_t>;
+  /// Spent on an order.
+  struct Effort {
+    std::size_t work = 0;      ///< products of partial derivatives, about
+    std::size_t patience = 0;  ///< ends after so many sweeps that save little
+  };
 
   /// Edges by the vertex that they lead to, from inner vertices before it. Vertices from `inner` on are columns and
   /// rows; what is `known` need not be computed.
   EliminationTrials(std::vector<std::vector<Edge>> operands, std::size_t inner,
-                    const std::vector<Residue>& known, std::uint64_t draws = 0);
+                    const std::vector<Residue>& known);
 
   /// All inner vertices: first those with one user or one operand, again and again, which makes no new edges; then
   /// those below `forward`, operands first; then those below `late`, results first; then the others, operands first.
@@ -34,9 +39,9 @@ class EliminationTrials {
 
   std::size_t operations(const Order& order);
 
-  /// Moves vertices before or after neighbours, at random but the same in every run with the same `draws`, and keeps
-  /// what takes no more operations. Ends when a few sweeps save little, or after about `work` products.
-  Order improved(Order order, std::size_t work);
+  /// Moves vertices before or after neighbours, at random but the same in every run, and keeps what takes no more
+  /// operations.
+  Order improved(Order order, const Effort& effort);
 
  private:
   static constexpr std::uint32_t kNoPosition = ~std::uint32_t{0};
@@ -89,7 +94,6 @@ class EliminationTrials {
   };
 
   std::size_t inner_, work_ = 0;
-  std::uint64_t draws_;
   std::optional<Order> links_;
   Graph given_;  ///< all of it
   Graph kept_;   ///< where trials begin

@@ -7,9 +7,8 @@
 
 namespace jourdain::passes {
 
-/// In an order that is looked for. Small programs are built in another such and in some simple orders, too, since the
-/// search counts what the passes will do roughly. Those that take values by signs are built in simple orders alone, for
-/// which nothing is looked for.
-ir::Program cheapest(const std::function<ir::Program(const ir::OrderChoice&)>& build);
+/// In an order that is looked for. Small programs are built in some simple orders, too, since the search counts what
+/// the passes will do roughly, and so are those that take values by signs, for which nothing is looked for.
+ir::Program cheapest(const std::function<ir::Program(const ir::Surroundings&)>& build);
 
 }  // namespace jourdain::passes

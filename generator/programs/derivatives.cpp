@@ -52,12 +52,12 @@ enum class Way {
 /// One program under construction.
 class Assembly {
  public:
-  Assembly(const DerivativeSources& sources, DerivativeTerms terms, Way way, const ir::OrderChoice& choice)
+  Assembly(const DerivativeSources& sources, DerivativeTerms terms, Way way, std::optional<double> forward)
       : sources_(sources),
         constrained_(way == Way::kEquations && sources.constrained ? &*sources.constrained : nullptr),
         way_(way),
         terms_(terms),
-        choice_(choice),
+        forward_(forward),
         columns_{sources.facts.velocities.size(), sources.facts.states.size(), sources.facts.carried.size(),
                  sources.facts.inputs.size(), sources.facts.time.any()} {}
 
@@ -187,14 +187,14 @@ class Assembly {
   /// Nothing but how an order is chosen.
   ir::Surroundings alone() const {
     ir::Surroundings result;
-    result.choice = choice_;
+    result.forward = forward_;
     return result;
   }
 
   /// What is here already, and what stands for accelerations and factors.
   ir::Surroundings surroundings() const {
     ir::Surroundings result = ir::within(builder_.program(), leaf_values());
-    result.choice = choice_;
+    result.forward = forward_;
     return result;
   }
 
@@ -336,7 +336,7 @@ class Assembly {
   const ConstrainedMotion* constrained_;
   Way way_;
   DerivativeTerms terms_;
-  ir::OrderChoice choice_;
+  std::optional<double> forward_;
   Columns columns_;
   Builder builder_;
   Column zdot_, factors_;
@@ -353,8 +353,8 @@ namespace {
 
 Program derivative_program(const DerivativeSources& sources, FunctionId function, DerivativeTerms terms,
                            Way way) {
-  return passes::cheapest([&](const ir::OrderChoice& by) {
-    Assembly assembly(sources, terms, way, by);
+  return passes::cheapest([&](const ir::Surroundings& by) {
+    Assembly assembly(sources, terms, way, by.forward);
     if (function == FunctionId::kResidualDerivatives) return assembly.residual_derivatives();
     if (function == FunctionId::kForwardDynamicsDerivatives) return assembly.forward_dynamics_derivatives();
     JD_CHECK(function == FunctionId::kLinearize, "no derivatives for '{}'", name_of(function));

@@ -16,6 +16,7 @@ using Edges = std::vector<std::vector<EliminationTrials::Edge>>;
 using Order = EliminationTrials::Order;
 
 constexpr std::size_t kInner = 7, kColumns = 3, kRows = 3, kGraphs = 40;
+constexpr EliminationTrials::Effort kEffort = {20000, 24};
 
 /// Inner vertices, columns, rows. Every third partial is 1 or −1, and each fourth one of two numbers.
 Edges random_graph(unsigned seed) {
@@ -45,7 +46,7 @@ TEST(EliminationSearch, FindsOrdersThatTakeAboutAsFewOperationsAsAnyOther) {
   for (unsigned seed = 0; seed < kGraphs; ++seed) {
     EliminationTrials trials(random_graph(seed), kInner, {});
     const Order start = trials.order(0, kInner);
-    const Order better = trials.improved(start, 20000);
+    const Order better = trials.improved(start, kEffort);
     Order all = start;
     std::sort(all.begin(), all.end());
     std::size_t fewest = trials.operations(all);
@@ -80,7 +81,7 @@ TEST(EliminationSearch, FindsOrdersOfManyVertices) {
     }
   }
   EliminationTrials trials(graph, kMany, {});
-  const Order start = trials.order(kMany, kMany), better = trials.improved(start, 2'000'000);
+  const Order start = trials.order(kMany, kMany), better = trials.improved(start, {2'000'000, 4});
   EXPECT_TRUE(std::is_permutation(better.begin(), better.end(), start.begin(), start.end()));
   EXPECT_LT(static_cast<double>(trials.operations(better)),
             0.9 * static_cast<double>(trials.operations(start)));
@@ -89,8 +90,8 @@ TEST(EliminationSearch, FindsOrdersOfManyVertices) {
 TEST(EliminationSearch, IsTheSameInEveryRun) {
   for (unsigned seed = 0; seed < kGraphs; ++seed) {
     EliminationTrials a(random_graph(seed), kInner, {}), b(random_graph(seed), kInner, {});
-    b.operations(b.improved(b.order(3, kInner), 1000));  // what was tried before does not matter
-    EXPECT_EQ(a.improved(a.order(0, kInner), 1000), b.improved(b.order(0, kInner), 1000)) << seed;
+    b.operations(b.improved(b.order(3, kInner), kEffort));  // what was tried before does not matter
+    EXPECT_EQ(a.improved(a.order(0, kInner), kEffort), b.improved(b.order(0, kInner), kEffort)) << seed;
   }
 }
 
@@ -100,7 +101,7 @@ TEST(EliminationSearch, LeavesOutWhatLeadsNowhere) {
   const Edges graph = {{{p, 3}}, {{p, 0}}, {{p, 1}}, {}, {{p, 0}}};
   EliminationTrials trials(graph, 3, {});
   EXPECT_EQ(trials.order(0, 3), Order{0});
-  EXPECT_EQ(trials.improved({0}, 1000), Order{0});
+  EXPECT_EQ(trials.improved({0}, kEffort), Order{0});
   EXPECT_EQ(trials.operations({0}), 1u);
 }
 

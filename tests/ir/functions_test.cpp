@@ -34,7 +34,7 @@ Signed second_operand(Builder& builder, Function function) {
 
 Surroundings with_forward(std::optional<double> forward) {
   Surroundings surroundings;
-  surroundings.choice.forward = forward;
+  surroundings.forward = forward;
   return surroundings;
 }
 

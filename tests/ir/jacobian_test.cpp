@@ -28,7 +28,7 @@ class Orders : public ::testing::TestWithParam<std::optional<double>> {
   static JacobianEntries differentiated(Builder& builder, const std::vector<Signed>& values,
                                         const std::vector<Seed>& seeds) {
     Surroundings surroundings;
-    surroundings.choice.forward = GetParam();
+    surroundings.forward = GetParam();
     return differentiate(builder, values, seeds, {}, surroundings);
   }
 };

@@ -233,11 +233,12 @@ std::vector<ConstraintPrograms> constraint_programs(const model::Mechanism& mech
   programs.searches = {lowered.found(), lowered.misfits()};
   const RowPrograms rows = {lowered.values(Held::kLeaves), lowered.velocities(Held::kLeaves),
                             lowered.leading(), programs.searches};
-  const std::vector<Program> jacobians = in_order(
-      passes::cheapest([&](const ir::OrderChoice& by) { return differentiated_jacobian(tangent, rows, by); }),
-      lowered.jacobian());
+  const std::vector<Program> jacobians = in_order(passes::cheapest([&](const ir::Surroundings& by) {
+                                                    return differentiated_jacobian(tangent, rows, by);
+                                                  }),
+                                                  lowered.jacobian());
   const std::vector<Program> rates = in_order(
-      passes::cheapest([&](const ir::OrderChoice& by) { return differentiated_rates(tangent, rows, by); }),
+      passes::cheapest([&](const ir::Surroundings& by) { return differentiated_rates(tangent, rows, by); }),
       lowered.rates());
   std::vector<ConstraintPrograms> list;
   for (const Program& jacobian : jacobians)

@@ -23,9 +23,9 @@ namespace {
 /// A builder that holds g and differentiates it.
 class Differentiation {
  public:
-  Differentiation(const model::Tangent& tangent, const RowPrograms& rows, const ir::OrderChoice& choice)
-      : tangent_(tangent), rows_(rows), g_(ir::insert(builder_, rows.value)) {
-    surroundings_.choice = choice;
+  Differentiation(const model::Tangent& tangent, const RowPrograms& rows,
+                  const ir::Surroundings& surroundings)
+      : tangent_(tangent), surroundings_(surroundings), rows_(rows), g_(ir::insert(builder_, rows.value)) {
     const std::size_t n = tangent.scalars.size() + 3 * tangent.quaternions.size();
     const std::vector<Signed> rates = ir::insert(builder_, rows.leading);
     for (std::size_t k = 0; k < rates.size(); ++k)
@@ -133,7 +133,7 @@ class Differentiation {
   }
 
   const model::Tangent& tangent_;
-  ir::Surroundings surroundings_;
+  const ir::Surroundings& surroundings_;
   const RowPrograms& rows_;
   Builder builder_;
   std::vector<Signed> g_;
@@ -145,13 +145,13 @@ class Differentiation {
 }  // namespace
 
 Program differentiated_jacobian(const model::Tangent& tangent, const RowPrograms& rows,
-                                const ir::OrderChoice& choice) {
-  return Differentiation(tangent, rows, choice).jacobian();
+                                const ir::Surroundings& surroundings) {
+  return Differentiation(tangent, rows, surroundings).jacobian();
 }
 
 Program differentiated_rates(const model::Tangent& tangent, const RowPrograms& rows,
-                             const ir::OrderChoice& choice) {
-  return Differentiation(tangent, rows, choice).rates();
+                             const ir::Surroundings& surroundings) {
+  return Differentiation(tangent, rows, surroundings).rates();
 }
 
 }  // namespace jourdain::loops

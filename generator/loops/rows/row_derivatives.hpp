@@ -18,10 +18,10 @@ struct RowPrograms {
 
 /// ("G", row, velocity), ("g_t", row), as in ConstraintPrograms.
 ir::Program differentiated_jacobian(const model::Tangent& tangent, const RowPrograms& rows,
-                                    const ir::OrderChoice& choice);
+                                    const ir::Surroundings& surroundings);
 
 /// ("rate", row) and ("gamma", row), every row.
 ir::Program differentiated_rates(const model::Tangent& tangent, const RowPrograms& rows,
-                                 const ir::OrderChoice& choice);
+                                 const ir::Surroundings& surroundings);
 
 }  // namespace jourdain::loops
