@@ -4,11 +4,10 @@
 #include <array>
 #include <map>
 #include <optional>
-#include <queue>
-#include <set>
 #include <utility>
 
 #include "ir/builder.hpp"
+#include "passes/lane_order.hpp"
 #include "support/check.hpp"
 
 namespace jourdain::passes {
@@ -94,18 +93,16 @@ class Building {
   Building(const Program& program, const Groups& groups, std::vector<LikeGroups> bundles)
       : program_(program),
         groups_(groups),
-        bundles_(std::move(bundles)),
-        unit_(program.nodes.size()),
+        order_(order_in_lanes(program, groups, std::move(bundles))),
         placed_(program.nodes.size()) {}
 
   Program run() {
-    schedule();
     result_.name = program_.name;
-    for (const std::size_t unit : order_)
+    for (const std::size_t unit : order_.units)
       if (unit < program_.nodes.size())
         compute(ValueId(unit));
       else
-        compute(bundles_[unit - program_.nodes.size()]);
+        compute(order_.bundles[unit - program_.nodes.size()]);
     for (const ir::Output& output : program_.outputs)
       result_.outputs.push_back(
           {output.name, output.row, output.column, exactly(place(output.value), false)});
@@ -113,106 +110,6 @@ class Building {
   }
 
  private:
-  // Schedule: a unit is an operation, by its value, or a bundle, by its number after all values.
-
-  void schedule() {
-    while (!schedule_or_unbundle()) {
-    }
-  }
-
-  std::vector<std::size_t> needed(std::size_t unit) const {
-    std::vector<std::size_t> list;
-    const auto add = [&](ValueId value) {
-      if (unit_[value.value]) list.push_back(*unit_[value.value]);
-    };
-    if (unit >= program_.nodes.size()) {
-      for (const LikeGroups::Lane& lane : bundles_[unit - program_.nodes.size()].lanes)
-        for (const Term& term : lane.terms) add(term.value);
-    } else {
-      const Node& node = program_.nodes[unit];
-      if (ir::operand_count(node.op) >= 1) add(node.a);
-      if (ir::operand_count(node.op) == 2) add(node.b);
-    }
-    return list;
-  }
-
-  /// Values within the groups of bundles have no unit: nothing else reads them.
-  void number_units() {
-    for (std::size_t i = 0; i < program_.nodes.size(); ++i) {
-      unit_[i].reset();
-      if (ir::operand_count(program_.nodes[i].op) > 0) unit_[i] = i;
-    }
-    for (std::size_t p = 0; p < bundles_.size(); ++p)
-      for (const LikeGroups::Lane& lane : bundles_[p].lanes) {
-        forget_within(lane.root);
-        unit_[lane.root.value] = program_.nodes.size() + p;
-      }
-  }
-
-  void forget_within(ValueId value) {
-    const Node& node = program_[value];
-    for (int k = 0; k < ir::operand_count(node.op); ++k) {
-      const ValueId operand = k == 0 ? node.a : node.b;
-      if (!groups_.is_within(operand)) continue;
-      unit_[operand.value].reset();
-      forget_within(operand);
-    }
-  }
-
-  /// False where bundles wait for each other: one of them is then given up.
-  bool schedule_or_unbundle() {
-    number_units();
-    std::set<std::size_t> units;
-    for (const auto& unit : unit_)
-      if (unit) units.insert(*unit);
-    std::map<std::size_t, std::size_t> waits;
-    std::map<std::size_t, std::vector<std::size_t>> users;
-    using Entry = std::pair<std::size_t, std::size_t>;  // where it stands in the program, and the unit
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> ready;
-    const auto at = [&](std::size_t unit) {
-      return unit < program_.nodes.size() ? unit : bundles_[unit - program_.nodes.size()].lanes[0].root.value;
-    };
-    for (const std::size_t unit : units) {
-      const std::vector<std::size_t> list = needed(unit);
-      waits[unit] = list.size();
-      for (const std::size_t operand : list) users[operand].push_back(unit);
-      if (list.empty()) ready.emplace(at(unit), unit);
-    }
-    order_.clear();
-    while (!ready.empty()) {
-      const std::size_t unit = ready.top().second;
-      ready.pop();
-      order_.push_back(unit);
-      waits.erase(unit);
-      for (const std::size_t user : users[unit])
-        if (--waits[user] == 0) ready.emplace(at(user), user);
-    }
-    if (waits.empty()) return true;
-    give_up_one(waits);
-    return false;
-  }
-
-  /// Of those in a cycle, which is reached by going from operand to operand.
-  void give_up_one(const std::map<std::size_t, std::size_t>& waits) {
-    std::set<std::size_t> passed;
-    std::size_t unit = waits.begin()->first;
-    std::vector<std::size_t> way;
-    while (passed.insert(unit).second) {
-      way.push_back(unit);
-      for (const std::size_t operand : needed(unit))
-        if (waits.count(operand)) {
-          unit = operand;
-          break;
-        }
-    }
-    for (auto it = std::find(way.begin(), way.end(), unit); it != way.end(); ++it)
-      if (*it >= program_.nodes.size()) {
-        bundles_.erase(bundles_.begin() + static_cast<long>(*it - program_.nodes.size()));
-        return;
-      }
-    JD_CHECK(false, "a value of '{}' needs itself", program_.name);
-  }
-
   // Values
 
   ValueId append(const Node& node, const std::string& label = "") {
@@ -333,7 +230,7 @@ class Building {
     for (std::size_t i = 0; i < lane.terms.size(); ++i)
       if (program_[lane.terms[i].value].op == Op::kLiteral) return i;
     for (std::size_t i = 0; i < lane.terms.size(); ++i)
-      if (const auto& unit = unit_[lane.terms[i].value.value]; !unit || *unit < program_.nodes.size())
+      if (const auto& unit = order_.unit[lane.terms[i].value.value]; !unit || *unit < program_.nodes.size())
         return i;
     return 0;
   }
@@ -362,9 +259,7 @@ class Building {
 
   const Program& program_;
   const Groups& groups_;
-  std::vector<LikeGroups> bundles_;
-  std::vector<std::optional<std::size_t>> unit_;
-  std::vector<std::size_t> order_;
+  LaneOrder order_;
   std::vector<std::optional<Signed>> placed_;
   std::map<ValueId, ValueId> negations_;
   std::map<std::array<double, 4>, ValueId> literals_;
