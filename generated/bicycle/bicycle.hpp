@@ -32,7 +32,7 @@
 //   linearly_implicit_euler_step, ros34pw2_step, rosw43_step, rodas4_step
 // Checked before this file was written
 // - validated at 8 states: in 77 digits everything below agrees to 1e-40 of its scale (what rounding can move
-//   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 3.0e-16 of the
+//   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 1.7e-16 of the
 //   sum of absolute terms, other errors are 1.4e-15 of their scale; cond(M) up to 1.5e+03
 // - the symbolic equations (M, k_bar, q_bar, Z z, energies): the numeric reference
 // - initial_state: the assembled start
@@ -167,8 +167,8 @@ struct Model {
   Real r_front_y;
   Real c25;
   Real c26;
-  Real rear_radius;
   Real front_radius;
+  Real rear_radius;
   Real c29;
   Real c30;
   Real c31;
@@ -243,7 +243,7 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
 /// The loops add their forces: M zdot = k_bar - q_bar - G^T lambda, see constraint_forces.
-/// 2043 operations (1176 mul, 849 add and sub, 16 div), 2 sin and cos.
+/// 2026 operations (1165 mul, 843 add and sub, 16 div), 2 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[9]) noexcept;
@@ -268,27 +268,27 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
 
 /// Moves positions and velocities to the nearest ones that the loops allow, to first order.
 /// Call it after changing a state, several times where that was far; steps end with it.
-/// 1855 operations (1049 mul, 771 add and sub, 30 div), 16 sin and cos.
+/// 1851 operations (1047 mul, 769 add and sub, 30 div), 16 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void project(const Model<Real>& model, State<Real>& state) noexcept;
 
 /// How far the loops are open: g(y, t), zero where they are closed, in m (rows without a length: without unit),
 /// and its rate G z + g_t. Rows as in constraint_names.
-/// 263 operations (148 mul, 105 add and sub, 8 div), 2 sin and cos.
+/// 261 operations (147 mul, 104 add and sub, 8 div), 2 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void constraint_residual(const Model<Real>& model, const State<Real>& state, Real (&g)[6], Real (&g_rate)[6])
     noexcept;
 
 /// Multipliers lambda of M zdot = k_bar - q_bar - G^T lambda over all coordinates of the tree; the force of the
 /// constraints is -G^T lambda. N; N m for rows without a length.
-/// 1900 operations (1100 mul, 782 add and sub, 16 div), 2 sin and cos.
+/// 1883 operations (1089 mul, 776 add and sub, 16 div), 2 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void constraint_forces(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&lambda)[6]) noexcept;
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 10388 operations. For inputs sampled at the stages include bicycle_kernels.hpp and pass a function of the
+/// 10316 operations. For inputs sampled at the stages include bicycle_kernels.hpp and pass a function of the
 /// state instead of `input`.
 template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;

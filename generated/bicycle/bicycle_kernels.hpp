@@ -260,8 +260,8 @@ Model<Real>::Model(const Parameters& parameters) noexcept {
   c25 = r_steer_x - Real(0.3090169943749474) * r_front_z;
   c26 = r_steer_z + Real(0.9510565162951535) * r_front_z;
   c29 = Real(1.0) / S2b_zz;
-  c30 = rear_radius * Real(0.5);
-  c31 = Real(0.5) * front_radius;
+  c30 = Real(0.5) * front_radius;
+  c31 = rear_radius * Real(0.5);
   const Real t132 = d_steer + r_front_z_2;
   c32 = expression_2 - Real(0.3090169943749474) * t132;
   c33 = Real(0.9510565162951535) * t132;
@@ -636,25 +636,22 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t48 = state.y[4] * Real(0.5);
   const Real t49 = state.y[5] * Real(0.5);
   const Real t50 = state.y[6] * Real(0.5);
-  const Real t51 = q0r2_y + q0r2_y;
-  const Real t52 = Real(1.0) / rear_contactup;
-  const Real t53 = Real(0.5) * t52;
-  const Real t54 = front_contactbd0p_z + front_contactbd0p_z;
-  const Real t55 = Real(1.0) / front_contactup;
-  const Real t56 = Real(0.5) * t55;
-  const Real t58 = t53 * model.rear_radius;
-  const Real t59 = t51 * t58;
-  const Real t67 = q0r2_x * Real(0.9510565162951535) + q0r2_z * Real(0.3090169943749474);
-  const Real t69 = q0r2_y * s2 + c2 * t67;
-  const Real t70 = t54 * t56;
-  const Real t72 = t70 * model.front_radius;
-  const Real t79 = q0d2 * t49 - (q0d3 * t50 + (state.y[3] * state.y[3] - q0d1 * t48));
-  const Real t81 = front_contactbx3_x + c2 * t72;
-  const Real t83 = q0r2_x * t59;
-  const Real t86 = front_contactbx2p_x - front_contactbd2p_x * t72;
-  const Real t89 = front_contactbx2p_z - front_contactbd2p_z * t72;
-  const Real t92 = front_contactbx3_x * t67 + (t69 * t72 - q0r2_y * front_contactbx3_y);
-  const Real q012 = state.y[4] * q0d2;
+  const Real t51 = Real(1.0) / rear_contactup;
+  const Real t52 = front_contactbd0p_z + front_contactbd0p_z;
+  const Real t53 = Real(1.0) / front_contactup;
+  const Real t54 = Real(0.5) * t53;
+  const Real t56 = t54 * model.front_radius;
+  const Real t57 = t52 * t56;
+  const Real t63 = q0r2_y * s2 + c2 * (q0r2_z * Real(0.3090169943749474) + q0r2_x * Real(0.9510565162951535));
+  const Real t70 = front_contactbx2p_z - front_contactbd2p_z * t57;
+  const Real t72 = front_contactbx2p_x - front_contactbd2p_x * t57;
+  const Real t76 = q0d2 * t49 + (q0d1 * t48 - (q0d3 * t50 + state.y[3] * state.y[3]));
+  const Real q012 = q0d1 * state.y[5];
+  const Real t85 = front_contactbx3_x + c2 * t57;
+  const Real t87 = t57 * t63 + model.r_front_y * front_contactbd0p_z;
+  const Real t88 = q0r2_y * t51;
+  const Real t89 = model.rear_radius * t88;
+  const Real t91 = q0r2_x * t89;
   const Real q033 = state.y[6] * q0d3;
   const Real q003 = q0d3 * state.y[3];
   const Real q0r0_x = Real(1.0) - (q022 + q033);
@@ -662,21 +659,21 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real q0r1_x = q012 + q003;
   const Real q0r1_y = t14 + q033;
   const Real q0r1_z = q023 - q001;
-  const Real t106 = model.rear_radius * q0r1_y;
-  const Real rear_contactc_y = t59 * q0r1_y;
+  const Real t102 = model.rear_radius * q0r1_y;
+  const Real rear_contactc_y = t88 * t102;
   const Real rear_contactc_z = model.rear_radius * (t17 / rear_contactup);
-  const Real rear_contacts1bn0_y = t52 * t106;
+  const Real rear_contacts1bn0_y = t51 * t102;
   const Real rear_contacts1bn0_z = q0r1_z * rear_contactc_z + q0r2_z * rear_contactc_y;
-  const Real t116 = model.rear_radius * q0r0_y;
+  const Real t112 = model.rear_radius * q0r0_y;
   const Real q0r0_z = q013 + q002;
-  const Real rear_contactc_x = t59 * q0r0_y;
-  const Real rear_contacts2bn0_y = t52 * t116;
+  const Real rear_contactc_x = t88 * t112;
+  const Real rear_contacts2bn0_y = t51 * t112;
   const Real rear_contacts2bn0_z = rear_contactc_z * q0r0_z - q0r2_z * rear_contactc_x;
   const Real front_contactbd0p_y = front_contactbd2p_z * q0r1_z - (front_contactbd2p_x * q0r1_x + c2 *
       q0r1_y);
-  const Real t132 = model.front_radius * front_contactbd0p_y;
-  const Real front_contactc_y = t70 * t132;
-  const Real front_contactc_z = model.front_radius * (t44 / front_contactup);
+  const Real front_contactc_y = t57 * front_contactbd0p_y;
+  const Real t129 = t44 / front_contactup;
+  const Real front_contactc_z = model.front_radius * t129;
   const Real front_contacts1bf2_y = Real(0.3090169943749474) * q0r0_z - Real(0.9510565162951535) * q0r0_x;
   const Real front_contacts1bn0_x = q0r1_x * front_contactc_z - q0r2_x * front_contactc_y;
   const Real front_contacts1bn0_y = q0r1_y * front_contactc_z + q0r2_y * front_contactc_y;
@@ -687,8 +684,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real front_contacts1bm_z = front_contactbx3_x * front_contacts1bf2_y + (front_contactbx3_y * q0r0_y +
       (Real(0.3090169943749474) * front_contacts1bn0_x + Real(0.9510565162951535) * front_contacts1bn0_z));
   const Real front_contactbd0p_x = c2 * q0r0_y + s2 * front_contacts1bf2_y;
-  const Real t170 = model.front_radius * front_contactbd0p_x;
-  const Real front_contactc_x = t70 * t170;
+  const Real front_contactc_x = t57 * front_contactbd0p_x;
   const Real front_contacts2bf2_y = Real(0.3090169943749474) * q0r1_z - Real(0.9510565162951535) * q0r1_x;
   const Real front_contacts2bn0_x = q0r0_x * front_contactc_z - q0r2_x * front_contactc_x;
   const Real front_contacts2bn0_y = q0r0_y * front_contactc_z - q0r2_y * front_contactc_x;
@@ -708,31 +704,31 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real h2b_y = c2 * model.front_h_y;
   const Real h2at2_x = Real(0.9510565162951535) * h2b_y;
   const Real h2at2_z = Real(0.3090169943749474) * h2b_y;
-  const Real t225 = Real(0.3090169943749474) * S2b_yz;
-  const Real S2at2r0_y = t225 + Real(0.9510565162951535) * S2b_yy;
-  const Real t228 = Real(0.9510565162951535) * S2b_yz;
-  const Real S2at2r0_z = t228 + Real(0.04326237921249264);
-  const Real S2at2r2_y = t228 - Real(0.3090169943749474) * S2b_yy;
+  const Real t219 = Real(0.3090169943749474) * S2b_yz;
+  const Real S2at2r0_y = t219 + Real(0.9510565162951535) * S2b_yy;
+  const Real t222 = Real(0.9510565162951535) * S2b_yz;
+  const Real S2at2r0_z = t222 + Real(0.04326237921249264);
+  const Real S2at2r2_y = t222 - Real(0.3090169943749474) * S2b_yy;
   const Real h2c_x = h2at2_x + model.c6;
   const Real h2c_z = h2at2_z + model.c7;
-  const Real t243 = h2b_x * model.r_steer_x;
-  const Real S2c_xy = t243 + (Real(0.3090169943749474) * S2b_xz - Real(0.9510565162951535) * S2b_xy);
-  const Real t254 = h2at2_z - model.h_z;
+  const Real t237 = h2b_x * model.r_steer_x;
+  const Real S2c_xy = t237 + (Real(0.3090169943749474) * S2b_xz - Real(0.9510565162951535) * S2b_xy);
+  const Real t248 = h2at2_z - model.h_z;
   const Real S2c_xz = Real(0.3090169943749474) * (S2at2r0_y - model.SR_z) + ((h2at2_x + model.c9) *
-      model.r_steer_z - (Real(0.9510565162951535) * S2at2r0_z - model.r_steer_x * t254)) +
+      model.r_steer_z - (Real(0.9510565162951535) * S2at2r0_z - model.r_steer_x * t248)) +
       Real(25.349999999999998);
   const Real S2c_yy = S2b_xx - Real(0.5002999999999995);
-  const Real t263 = h2b_x * model.r_steer_z;
-  const Real S2c_yz = t263 - (Real(0.3090169943749474) * S2b_xy + Real(0.9510565162951535) * S2b_xz);
+  const Real t257 = h2b_x * model.r_steer_z;
+  const Real S2c_yz = t257 - (Real(0.3090169943749474) * S2b_xy + Real(0.9510565162951535) * S2b_xz);
   const Real S1c_xx = (h2at2_x + model.h_x) * model.c14 + (Real(0.9510565162951535) * S2at2r0_y +
       Real(0.3090169943749474) * (S2at2r0_z + model.SR_x)) + model.c16;
-  const Real S1c_zz = t254 * model.c17 - (Real(0.3090169943749474) * S2at2r2_y + Real(0.9510565162951535) *
-      (t225 - model.c18)) + model.c19;
+  const Real S1c_zz = t248 * model.c17 - (Real(0.3090169943749474) * S2at2r2_y + Real(0.9510565162951535) *
+      (t219 - model.c18)) + model.c19;
   const Real p_7_2l_x = h2b_y * model.r_steer_z;
   const Real p_7_2l_z = h2b_y * model.r_steer_x;
-  const Real p_7_2n_x = t228 - p_7_2l_x + model.c20;
-  const Real p_7_2n_y = t263 * Real(0.9510565162951535) - (S2b_xz + t243 * Real(0.3090169943749474));
-  const Real p_7_2n_z = t225 + p_7_2l_z - model.c21;
+  const Real p_7_2n_x = t222 - p_7_2l_x + model.c20;
+  const Real p_7_2n_y = t257 * Real(0.9510565162951535) - (S2b_xz + t237 * Real(0.3090169943749474));
+  const Real p_7_2n_z = t219 + p_7_2l_z - model.c21;
   const Real p_7_0f_x = front_contactbd0p_x * model.front_h_y;
   const Real p_7_0f_y = front_contactbd0p_y * model.front_h_y;
   const Real p_7_0f_z = front_contactbd0p_z * model.front_h_y;
@@ -740,247 +736,249 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real p_8_3N_y = s2 * Real(0.28);
   const Real p_8_2n_x = Real(0.9510565162951535) * p_8_3N_y;
   const Real p_8_2n_z = Real(0.3090169943749474) * p_8_3N_y;
-  const Real t327 = p_8_2n_z * Real(3.571428571428571);
-  const Real t331 = p_8_3N_x * Real(3.571428571428571);
-  const Real t334 = p_8_2n_x * Real(3.571428571428571);
-  const Real t337 = p_7_2n_z * model.c29;
-  const Real t344 = p_7_2n_y * t337 + (S2c_yz - p_8_3N_x * t327);
-  const Real t347 = p_7_2n_x * t337 - (S2c_xz + p_8_2n_x * t327);
-  const Real t350 = p_7_0f_z * t337 + (q0r2_x * h2b_x - q0r2_y * h2c_x);
-  const Real t353 = p_7_0f_y * t337 - (q0r1_x * h2b_x + q0r1_y * h2c_x);
-  const Real t356 = p_7_0f_x * t337 - (q0r0_x * h2b_x - q0r0_y * h2c_x);
-  const Real t357 = p_7_2n_y * model.c29;
-  const Real t363 = p_7_2n_x * model.c29;
-  const Real t368 = p_7_0f_z * model.c29;
-  const Real t372 = p_7_0f_y * model.c29;
-  const Real t375 = p_7_0f_x * model.c29;
-  const Real t377 = Real(1.0) / (p_7_2n_z * t337 - (p_8_2n_z * t327 + (S2c_yy - S1c_xx)));
-  const Real t378 = t344 * t377;
-  const Real t389 = t347 * t378 - (p_7_2n_x * t357 + (S2c_xy - p_8_2n_x * t331));
-  const Real t393 = t350 * t378 - (p_7_0f_z * t357 + (q0r2_x * h2c_z - q0r2_z * h2c_x));
-  const Real t397 = t353 * t378 - (p_7_0f_y * t357 - (q0r1_x * h2c_z + q0r1_z * h2c_x));
-  const Real t401 = t356 * t378 - (p_7_0f_x * t357 - (q0r0_x * h2c_z + q0r0_z * h2c_x));
-  const Real t402 = t347 * t377;
-  const Real t407 = t350 * t377;
-  const Real t411 = t353 * t377;
-  const Real t414 = t356 * t377;
-  const Real t416 = Real(1.0) / (t344 * t378 - (p_7_2n_y * t357 - (p_8_3N_x * t331 - (S1c_xx + S1c_zz))) +
+  const Real t321 = p_8_2n_z * Real(3.571428571428571);
+  const Real t325 = p_8_3N_x * Real(3.571428571428571);
+  const Real t328 = p_8_2n_x * Real(3.571428571428571);
+  const Real t331 = p_7_2n_z * model.c29;
+  const Real t338 = p_7_2n_y * t331 + (S2c_yz - p_8_3N_x * t321);
+  const Real t341 = p_7_2n_x * t331 - (S2c_xz + p_8_2n_x * t321);
+  const Real t344 = p_7_0f_z * t331 + (q0r2_x * h2b_x - q0r2_y * h2c_x);
+  const Real t347 = p_7_0f_y * t331 - (q0r1_x * h2b_x + q0r1_y * h2c_x);
+  const Real t350 = p_7_0f_x * t331 - (q0r0_x * h2b_x - q0r0_y * h2c_x);
+  const Real t351 = p_7_2n_y * model.c29;
+  const Real t357 = p_7_2n_x * model.c29;
+  const Real t362 = p_7_0f_z * model.c29;
+  const Real t366 = p_7_0f_y * model.c29;
+  const Real t369 = p_7_0f_x * model.c29;
+  const Real t371 = Real(1.0) / (p_7_2n_z * t331 - (p_8_2n_z * t321 + (S2c_yy - S1c_xx)));
+  const Real t372 = t338 * t371;
+  const Real t383 = t341 * t372 - (p_7_2n_x * t351 + (S2c_xy - p_8_2n_x * t325));
+  const Real t387 = t344 * t372 - (p_7_0f_z * t351 + (q0r2_x * h2c_z - q0r2_z * h2c_x));
+  const Real t391 = t347 * t372 - (p_7_0f_y * t351 - (q0r1_x * h2c_z + q0r1_z * h2c_x));
+  const Real t395 = t350 * t372 - (p_7_0f_x * t351 - (q0r0_x * h2c_z + q0r0_z * h2c_x));
+  const Real t396 = t341 * t371;
+  const Real t401 = t344 * t371;
+  const Real t405 = t347 * t371;
+  const Real t408 = t350 * t371;
+  const Real t410 = Real(1.0) / (t338 * t372 - (p_7_2n_y * t351 - (p_8_3N_x * t325 - (S1c_xx + S1c_zz))) +
       Real(0.12));
-  const Real t417 = t389 * t416;
-  const Real t428 = t393 * t417 - (t350 * t402 - (p_7_0f_z * t363 + (q0r2_y * h2c_z - q0r2_z * h2b_x)));
-  const Real t433 = t397 * t417 - (t353 * t402 - (p_7_0f_y * t363 + (q0r1_y * h2c_z - q0r1_z * h2b_x)));
-  const Real t438 = t401 * t417 - (t356 * t402 - (p_7_0f_x * t363 - (q0r0_y * h2c_z + q0r0_z * h2b_x)));
-  const Real t439 = t393 * t416;
-  const Real t443 = t397 * t416;
-  const Real t446 = t401 * t416;
-  const Real t448 = Real(1.0) / (t389 * t417 - (t347 * t402 - (p_7_2n_x * t363 - (p_8_2n_x * t334 + (S2c_yy -
+  const Real t411 = t383 * t410;
+  const Real t422 = t387 * t411 - (t344 * t396 - (p_7_0f_z * t357 + (q0r2_y * h2c_z - q0r2_z * h2b_x)));
+  const Real t427 = t391 * t411 - (t347 * t396 - (p_7_0f_y * t357 + (q0r1_y * h2c_z - q0r1_z * h2b_x)));
+  const Real t432 = t395 * t411 - (t350 * t396 - (p_7_0f_x * t357 - (q0r0_y * h2c_z + q0r0_z * h2b_x)));
+  const Real t433 = t387 * t410;
+  const Real t437 = t391 * t410;
+  const Real t440 = t395 * t410;
+  const Real t442 = Real(1.0) / (t383 * t411 - (t341 * t396 - (p_7_2n_x * t357 - (p_8_2n_x * t328 + (S2c_yy -
       S1c_zz)))));
-  const Real t449 = t428 * t448;
-  const Real t459 = t433 * t449 - (t397 * t439 + (p_7_0f_y * t368 - t353 * t407));
-  const Real t463 = t438 * t449 - (t401 * t439 + (p_7_0f_x * t368 - t356 * t407));
-  const Real t464 = t433 * t448;
-  const Real t467 = t438 * t448;
-  const Real t469 = Real(1.0) / (t428 * t449 - (t393 * t439 + (p_7_0f_z * t368 - t350 * t407)) - Real(94.0));
-  const Real t470 = t459 * t469;
-  const Real t481 = t463 * t470 - (t438 * t464 - (t401 * t443 + (p_7_0f_x * t372 - t356 * t411)));
-  const Real t482 = t463 * t469;
-  const Real t484 = Real(1.0) / (t459 * t470 - (t433 * t464 - (t397 * t443 - (t353 * t411 - (p_7_0f_y * t372 +
+  const Real t443 = t422 * t442;
+  const Real t453 = t427 * t443 - (t391 * t433 + (p_7_0f_y * t362 - t347 * t401));
+  const Real t457 = t432 * t443 - (t395 * t433 + (p_7_0f_x * t362 - t350 * t401));
+  const Real t458 = t427 * t442;
+  const Real t461 = t432 * t442;
+  const Real t463 = Real(1.0) / (t422 * t443 - (t387 * t433 + (p_7_0f_z * t362 - t344 * t401)) - Real(94.0));
+  const Real t464 = t453 * t463;
+  const Real t475 = t457 * t464 - (t432 * t458 - (t395 * t437 + (p_7_0f_x * t366 - t350 * t405)));
+  const Real t476 = t457 * t463;
+  const Real t478 = Real(1.0) / (t453 * t464 - (t427 * t458 - (t391 * t437 - (t347 * t405 - (p_7_0f_y * t366 +
       Real(94.0))))));
-  const Real t485 = t481 * t484;
-  const Real t493 = Real(1.0) / (t481 * t485 - (t463 * t482 - (t438 * t467 - (t401 * t446 - (t356 * t414 -
-      (p_7_0f_x * t375 + Real(94.0)))))));
-  const Real t495 = q0r2_x * model.rear_radius + t83 * t378;
-  const Real t503 = t417 * t495 - (t83 * t402 + (t59 * t79 + q0r2_y * model.rear_radius));
-  const Real t510 = t449 * t503 - (t439 * t495 - (Real(1.0) + t83 * t407));
-  const Real t516 = t470 * t510 - (t464 * t503 + (t83 * t411 - t443 * t495));
-  const Real t522 = t485 * t516 - (t482 * t510 - (t467 * t503 + (t83 * t414 - t446 * t495)));
-  const Real t524 = model.rear_radius * q0r0_x + rear_contacts1bn0_z * t378;
-  const Real t533 = t417 * t524 - (rear_contacts1bn0_z * t402 + (t116 + (q0r1_x * rear_contactc_z - q0r2_x *
+  const Real t479 = t475 * t478;
+  const Real t487 = Real(1.0) / (t475 * t479 - (t457 * t476 - (t432 * t461 - (t395 * t440 - (t350 * t408 -
+      (p_7_0f_x * t369 + Real(94.0)))))));
+  const Real t489 = q0r2_x * model.rear_radius + t91 * t372;
+  const Real t497 = t411 * t489 - (t91 * t396 + (q0r2_y * model.rear_radius + t76 * t89));
+  const Real t504 = t443 * t497 - (t433 * t489 - (Real(1.0) + t91 * t401));
+  const Real t510 = t464 * t504 - (t458 * t497 + (t91 * t405 - t437 * t489));
+  const Real t516 = t479 * t510 - (t476 * t504 - (t461 * t497 + (t91 * t408 - t440 * t489)));
+  const Real t518 = model.rear_radius * q0r0_x + rear_contacts1bn0_z * t372;
+  const Real t527 = t411 * t518 - (rear_contacts1bn0_z * t396 + (t112 + (q0r1_x * rear_contactc_z - q0r2_x *
       rear_contactc_y)));
-  const Real t539 = t449 * t533 + (rear_contacts1bn0_z * t407 - t439 * t524);
-  const Real t545 = t470 * t539 - (t464 * t533 + (rear_contacts1bn0_z * t411 - t443 * t524));
-  const Real t552 = t485 * t545 - (t482 * t539 - (t467 * t533 - (t446 * t524 + (Real(1.0) -
-      rear_contacts1bn0_z * t414))));
-  const Real t554 = model.rear_radius * q0r1_x - rear_contacts2bn0_z * t378;
-  const Real t563 = t417 * t554 + (rear_contacts2bn0_z * t402 + (q0r2_x * rear_contactc_x + (t106 + q0r0_x *
+  const Real t533 = t443 * t527 + (rear_contacts1bn0_z * t401 - t433 * t518);
+  const Real t539 = t464 * t533 - (t458 * t527 + (rear_contacts1bn0_z * t405 - t437 * t518));
+  const Real t546 = t479 * t539 - (t476 * t533 - (t461 * t527 - (t440 * t518 + (Real(1.0) -
+      rear_contacts1bn0_z * t408))));
+  const Real t548 = model.rear_radius * q0r1_x - rear_contacts2bn0_z * t372;
+  const Real t557 = t411 * t548 + (rear_contacts2bn0_z * t396 + (q0r2_x * rear_contactc_x + (t102 + q0r0_x *
       rear_contactc_z)));
-  const Real t569 = t449 * t563 - (rear_contacts2bn0_z * t407 + t439 * t554);
-  const Real t576 = t470 * t569 - (t464 * t563 - (t443 * t554 + (Real(1.0) + rear_contacts2bn0_z * t411)));
-  const Real t582 = t485 * t576 - (t482 * t569 - (t467 * t563 - (rear_contacts2bn0_z * t414 + t446 * t554)));
-  const Real t585 = t92 * t337 + (q0r2_x * t81 - q0r2_y * t86);
-  const Real t594 = t378 * t585 - (t92 * t357 - (t79 * t86 - q0r2_x * t89));
-  const Real t603 = t417 * t594 - (t402 * t585 - (t92 * t363 - (t79 * t81 - q0r2_y * t89)));
-  const Real t611 = t449 * t603 - (t439 * t594 - (t407 * t585 - (Real(1.0) + t92 * t368)));
-  const Real t618 = t470 * t611 - (t464 * t603 - (t443 * t594 + (t92 * t372 - t411 * t585)));
-  const Real t625 = t485 * t618 - (t482 * t611 - (t467 * t603 - (t446 * t594 + (t92 * t375 - t414 * t585))));
-  const Real t633 = front_contacts1bm_z * t337 + (front_contacts1bn3p_x * t327 + (front_contactbx2p_x * q0r0_y
+  const Real t563 = t443 * t557 - (rear_contacts2bn0_z * t401 + t433 * t548);
+  const Real t570 = t464 * t563 - (t458 * t557 - (t437 * t548 + (Real(1.0) + rear_contacts2bn0_z * t405)));
+  const Real t576 = t479 * t570 - (t476 * t563 - (t461 * t557 - (rear_contacts2bn0_z * t408 + t440 * t548)));
+  const Real t579 = t87 * t331 - (q0r2_y * t72 - q0r2_x * t85);
+  const Real t588 = t372 * t579 - (t87 * t351 - (t72 * t76 - q0r2_x * t70));
+  const Real t597 = t411 * t588 - (t396 * t579 - (t87 * t357 + (q0r2_y * t70 - t76 * t85)));
+  const Real t605 = t443 * t597 - (t433 * t588 - (t401 * t579 - (Real(1.0) + t87 * t362)));
+  const Real t612 = t464 * t605 - (t458 * t597 - (t437 * t588 + (t87 * t366 - t405 * t579)));
+  const Real t619 = t479 * t612 - (t476 * t605 - (t461 * t597 - (t440 * t588 + (t87 * t369 - t408 * t579))));
+  const Real t627 = front_contacts1bm_z * t331 + (front_contacts1bn3p_x * t321 + (front_contactbx2p_x * q0r0_y
       + (front_contacts1bn0_z - front_contactbx3_x * q0r0_x)));
-  const Real t644 = t378 * t633 - (front_contacts1bm_z * t357 + (front_contacts1bn3p_x * t331 -
+  const Real t638 = t372 * t627 - (front_contacts1bm_z * t351 + (front_contacts1bn3p_x * t325 -
       (front_contactbx2p_x * q0r0_z + (front_contacts1bn0_y + front_contactbx2p_z * q0r0_x))));
-  const Real t655 = t417 * t644 - (t402 * t633 - (front_contacts1bm_z * t363 + (front_contacts1bn3p_x * t334 -
+  const Real t649 = t411 * t638 - (t396 * t627 - (front_contacts1bm_z * t357 + (front_contacts1bn3p_x * t328 -
       (front_contactbx3_x * q0r0_z + (front_contacts1bn0_x + front_contactbx2p_z * q0r0_y)))));
-  const Real t662 = t449 * t655 - (t439 * t644 + (front_contacts1bm_z * t368 - t407 * t633));
-  const Real t669 = t470 * t662 - (t464 * t655 - (t443 * t644 + (front_contacts1bm_z * t372 - t411 * t633)));
-  const Real t677 = t485 * t669 - (t482 * t662 - (t467 * t655 - (t446 * t644 - (t414 * t633 - (Real(1.0) +
-      front_contacts1bm_z * t375)))));
-  const Real t685 = front_contacts2bm_z * t337 + (front_contacts2bn3p_x * t327 - (front_contactbx2p_x * q0r1_y
+  const Real t656 = t443 * t649 - (t433 * t638 + (front_contacts1bm_z * t362 - t401 * t627));
+  const Real t663 = t464 * t656 - (t458 * t649 - (t437 * t638 + (front_contacts1bm_z * t366 - t405 * t627)));
+  const Real t671 = t479 * t663 - (t476 * t656 - (t461 * t649 - (t440 * t638 - (t408 * t627 - (Real(1.0) +
+      front_contacts1bm_z * t369)))));
+  const Real t679 = front_contacts2bm_z * t331 + (front_contacts2bn3p_x * t321 - (front_contactbx2p_x * q0r1_y
       + (front_contacts2bn0_z + front_contactbx3_x * q0r1_x)));
-  const Real t696 = t378 * t685 - (front_contacts2bm_z * t357 + (front_contacts2bn3p_x * t331 -
+  const Real t690 = t372 * t679 - (front_contacts2bm_z * t351 + (front_contacts2bn3p_x * t325 -
       (front_contactbx2p_x * q0r1_z + (front_contacts2bn0_y + front_contactbx2p_z * q0r1_x))));
-  const Real t707 = t417 * t696 - (t402 * t685 - (front_contacts2bm_z * t363 + (front_contacts2bn3p_x * t334 -
+  const Real t701 = t411 * t690 - (t396 * t679 - (front_contacts2bm_z * t357 + (front_contacts2bn3p_x * t328 -
       (front_contactbx3_x * q0r1_z - (front_contacts2bn0_x + front_contactbx2p_z * q0r1_y)))));
-  const Real t714 = t449 * t707 - (t439 * t696 + (front_contacts2bm_z * t368 - t407 * t685));
-  const Real t722 = t470 * t714 - (t464 * t707 - (t443 * t696 - (t411 * t685 - (Real(1.0) +
-      front_contacts2bm_z * t372))));
-  const Real t729 = t485 * t722 - (t482 * t714 - (t467 * t707 - (t446 * t696 + (front_contacts2bm_z * t375 -
-      t414 * t685))));
-  const Real t742 = t493 * t552;
-  const Real t743 = t484 * t545;
-  const Real t744 = t469 * t539;
-  const Real t745 = t448 * t533;
-  const Real t746 = t416 * t524;
-  const Real t747 = rear_contacts1bn0_z * t377;
-  const Real t758 = t83 * t747 - (t495 * t746 - (t503 * t745 - (t510 * t744 + (t522 * t742 - t516 * t743))));
-  const Real t768 = t493 * t582;
-  const Real t769 = t484 * t576;
-  const Real t770 = t469 * t569;
-  const Real t771 = t448 * t563;
-  const Real t772 = t416 * t554;
-  const Real t773 = rear_contacts2bn0_z * t377;
-  const Real t774 = rear_contacts2bn0_y * Real(8.333333333333334);
-  const Real t785 = t83 * t773 + (t495 * t772 - (t503 * t771 - (t510 * t770 + (t522 * t768 - t516 * t769))));
-  const Real t800 = t493 * t625;
-  const Real t801 = t484 * t618;
-  const Real t802 = t469 * t611;
-  const Real t803 = t448 * t603;
-  const Real t804 = t416 * t594;
-  const Real t805 = t377 * t585;
-  const Real t816 = t83 * t805 - (t495 * t804 - (t503 * t803 - (t510 * t802 + (t522 * t800 - t516 * t801))));
-  const Real t837 = t493 * t677;
-  const Real t838 = t484 * t669;
-  const Real t839 = t469 * t662;
-  const Real t840 = t448 * t655;
-  const Real t841 = t416 * t644;
-  const Real t842 = t377 * t633;
-  const Real t843 = front_contacts1bm_z * model.c29;
-  const Real t854 = t83 * t842 - (t495 * t841 - (t503 * t840 - (t510 * t839 + (t522 * t837 - t516 * t838))));
-  const Real t883 = t493 * t729;
-  const Real t884 = t484 * t722;
-  const Real t885 = t469 * t714;
-  const Real t886 = t448 * t707;
-  const Real t887 = t416 * t696;
-  const Real t888 = t377 * t685;
-  const Real t889 = front_contacts2bm_z * model.c29;
-  const Real t890 = front_contacts2bn3p_x * Real(3.571428571428571);
-  const Real t901 = t83 * t888 - (t495 * t887 - (t503 * t886 - (t510 * t885 + (t522 * t883 - t516 * t884))));
-  const Real t944 = Real(1.0) / (t83 * (t83 * t377) - (t495 * (t416 * t495) - (t503 * (t448 * t503) - (t510 *
-      (t469 * t510) + (t522 * (t493 * t522) - t516 * (t484 * t516))))) + Real(1.8087085566416913e-12));
-  const Real t945 = t758 * t944;
-  const Real t956 = t785 * t944;
-  const Real t964 = t758 * t956 + (rear_contacts1bn0_y * t774 - (rear_contacts1bn0_z * t773 + (t524 * t772 -
-      (t533 * t771 - (t539 * t770 + (t552 * t768 - t545 * t769))))));
-  const Real t966 = t816 * t944;
-  const Real t973 = t758 * t966 - (rear_contacts1bn0_z * t805 - (t524 * t804 - (t533 * t803 - (t539 * t802 +
-      (t552 * t800 - t545 * t801)))));
-  const Real t976 = t854 * t944;
-  const Real t983 = t758 * t976 - (rear_contacts1bn0_z * t842 - (t524 * t841 - (t533 * t840 - (t539 * t839 +
-      (t552 * t837 - t545 * t838)))));
-  const Real t987 = t901 * t944;
-  const Real t994 = t758 * t987 - (rear_contacts1bn0_z * t888 - (t524 * t887 - (t533 * t886 - (t539 * t885 +
-      (t552 * t883 - t545 * t884)))));
-  const Real t999 = Real(1.0) / (t758 * t945 - (rear_contacts1bn0_y * rear_contacts1bn0_y *
-      Real(8.333333333333334) + (rear_contacts1bn0_z * t747 - (t524 * t746 - (t533 * t745 - (t539 * t744 +
-      (t552 * t742 - t545 * t743)))))) - Real(7.806783314072456e-11));
-  const Real t1000 = t964 * t999;
-  const Real t1012 = t973 * t999;
-  const Real t1020 = t964 * t1012 - (t785 * t966 - (rear_contacts2bn0_z * t805 + (t554 * t804 - (t563 * t803 -
-      (t569 * t802 + (t582 * t800 - t576 * t801))))));
-  const Real t1022 = t983 * t999;
-  const Real t1030 = t964 * t1022 - (t785 * t976 - (rear_contacts2bn0_z * t842 + (t554 * t841 - (t563 * t840 -
-      (t569 * t839 + (t582 * t837 - t576 * t838))))));
-  const Real t1033 = t994 * t999;
-  const Real t1041 = t964 * t1033 - (t785 * t987 - (rear_contacts2bn0_z * t888 + (t554 * t887 - (t563 * t886 -
-      (t569 * t885 + (t582 * t883 - t576 * t884))))));
-  const Real t1045 = Real(1.0) / (t964 * t1000 - (t785 * t956 - (rear_contacts2bn0_y * t774 +
-      (rear_contacts2bn0_z * t773 - (t554 * t772 - (t563 * t771 - (t569 * t770 + (t582 * t768 - t576 *
-      t769))))))) + Real(8.816994788327498e-12));
-  const Real t1046 = t1020 * t1045;
-  const Real t1059 = t1030 * t1045;
-  const Real t1069 = t1020 * t1059 - (t973 * t1022 - (t816 * t976 + (t92 * t843 - (t585 * t842 - (t594 * t841
-      - (t603 * t840 - (t611 * t839 + (t625 * t837 - t618 * t838))))))));
-  const Real t1071 = t1041 * t1045;
-  const Real t1081 = t1020 * t1071 - (t973 * t1033 - (t816 * t987 + (t92 * t889 - (t585 * t888 - (t594 * t887
-      - (t603 * t886 - (t611 * t885 + (t625 * t883 - t618 * t884))))))));
-  const Real t1084 = Real(1.0) / (t1020 * t1046 - (t973 * t1012 - (t816 * t966 + (model.c29 * (t92 * t92) -
-      (t585 * t805 - (t594 * t804 - (t603 * t803 - (t611 * t802 + (t625 * t800 - t618 * t801)))))))) -
+  const Real t708 = t443 * t701 - (t433 * t690 + (front_contacts2bm_z * t362 - t401 * t679));
+  const Real t716 = t464 * t708 - (t458 * t701 - (t437 * t690 - (t405 * t679 - (Real(1.0) +
+      front_contacts2bm_z * t366))));
+  const Real t723 = t479 * t716 - (t476 * t708 - (t461 * t701 - (t440 * t690 + (front_contacts2bm_z * t369 -
+      t408 * t679))));
+  const Real t736 = t487 * t546;
+  const Real t737 = t478 * t539;
+  const Real t738 = t463 * t533;
+  const Real t739 = t442 * t527;
+  const Real t740 = t410 * t518;
+  const Real t741 = rear_contacts1bn0_z * t371;
+  const Real t752 = t91 * t741 - (t489 * t740 - (t497 * t739 - (t504 * t738 + (t516 * t736 - t510 * t737))));
+  const Real t762 = t487 * t576;
+  const Real t763 = t478 * t570;
+  const Real t764 = t463 * t563;
+  const Real t765 = t442 * t557;
+  const Real t766 = t410 * t548;
+  const Real t767 = rear_contacts2bn0_z * t371;
+  const Real t768 = rear_contacts2bn0_y * Real(8.333333333333334);
+  const Real t779 = t91 * t767 + (t489 * t766 - (t497 * t765 - (t504 * t764 + (t516 * t762 - t510 * t763))));
+  const Real t794 = t487 * t619;
+  const Real t795 = t478 * t612;
+  const Real t796 = t463 * t605;
+  const Real t797 = t442 * t597;
+  const Real t798 = t410 * t588;
+  const Real t799 = t371 * t579;
+  const Real t810 = t91 * t799 - (t489 * t798 - (t497 * t797 - (t504 * t796 + (t516 * t794 - t510 * t795))));
+  const Real t831 = t487 * t671;
+  const Real t832 = t478 * t663;
+  const Real t833 = t463 * t656;
+  const Real t834 = t442 * t649;
+  const Real t835 = t410 * t638;
+  const Real t836 = t371 * t627;
+  const Real t837 = front_contacts1bm_z * model.c29;
+  const Real t848 = t91 * t836 - (t489 * t835 - (t497 * t834 - (t504 * t833 + (t516 * t831 - t510 * t832))));
+  const Real t877 = t487 * t723;
+  const Real t878 = t478 * t716;
+  const Real t879 = t463 * t708;
+  const Real t880 = t442 * t701;
+  const Real t881 = t410 * t690;
+  const Real t882 = t371 * t679;
+  const Real t883 = front_contacts2bm_z * model.c29;
+  const Real t884 = front_contacts2bn3p_x * Real(3.571428571428571);
+  const Real t895 = t91 * t882 - (t489 * t881 - (t497 * t880 - (t504 * t879 + (t516 * t877 - t510 * t878))));
+  const Real t938 = Real(1.0) / (t91 * (t91 * t371) - (t489 * (t410 * t489) - (t497 * (t442 * t497) - (t504 *
+      (t463 * t504) + (t516 * (t487 * t516) - t510 * (t478 * t510))))) + Real(1.8087085566416913e-12));
+  const Real t939 = t752 * t938;
+  const Real t950 = t779 * t938;
+  const Real t958 = t752 * t950 + (rear_contacts1bn0_y * t768 - (rear_contacts1bn0_z * t767 + (t518 * t766 -
+      (t527 * t765 - (t533 * t764 + (t546 * t762 - t539 * t763))))));
+  const Real t960 = t810 * t938;
+  const Real t967 = t752 * t960 - (rear_contacts1bn0_z * t799 - (t518 * t798 - (t527 * t797 - (t533 * t796 +
+      (t546 * t794 - t539 * t795)))));
+  const Real t970 = t848 * t938;
+  const Real t977 = t752 * t970 - (rear_contacts1bn0_z * t836 - (t518 * t835 - (t527 * t834 - (t533 * t833 +
+      (t546 * t831 - t539 * t832)))));
+  const Real t981 = t895 * t938;
+  const Real t988 = t752 * t981 - (rear_contacts1bn0_z * t882 - (t518 * t881 - (t527 * t880 - (t533 * t879 +
+      (t546 * t877 - t539 * t878)))));
+  const Real t993 = Real(1.0) / (t752 * t939 - (rear_contacts1bn0_y * rear_contacts1bn0_y *
+      Real(8.333333333333334) + (rear_contacts1bn0_z * t741 - (t518 * t740 - (t527 * t739 - (t533 * t738 +
+      (t546 * t736 - t539 * t737)))))) - Real(7.806783314072456e-11));
+  const Real t994 = t958 * t993;
+  const Real t1006 = t967 * t993;
+  const Real t1014 = t958 * t1006 - (t779 * t960 - (rear_contacts2bn0_z * t799 + (t548 * t798 - (t557 * t797 -
+      (t563 * t796 + (t576 * t794 - t570 * t795))))));
+  const Real t1016 = t977 * t993;
+  const Real t1024 = t958 * t1016 - (t779 * t970 - (rear_contacts2bn0_z * t836 + (t548 * t835 - (t557 * t834 -
+      (t563 * t833 + (t576 * t831 - t570 * t832))))));
+  const Real t1027 = t988 * t993;
+  const Real t1035 = t958 * t1027 - (t779 * t981 - (rear_contacts2bn0_z * t882 + (t548 * t881 - (t557 * t880 -
+      (t563 * t879 + (t576 * t877 - t570 * t878))))));
+  const Real t1039 = Real(1.0) / (t958 * t994 - (t779 * t950 - (rear_contacts2bn0_y * t768 +
+      (rear_contacts2bn0_z * t767 - (t548 * t766 - (t557 * t765 - (t563 * t764 + (t576 * t762 - t570 *
+      t763))))))) + Real(8.816994788327498e-12));
+  const Real t1040 = t1014 * t1039;
+  const Real t1053 = t1024 * t1039;
+  const Real t1063 = t1014 * t1053 - (t967 * t1016 - (t810 * t970 + (t87 * t837 - (t579 * t836 - (t588 * t835
+      - (t597 * t834 - (t605 * t833 + (t619 * t831 - t612 * t832))))))));
+  const Real t1065 = t1035 * t1039;
+  const Real t1075 = t1014 * t1065 - (t967 * t1027 - (t810 * t981 + (t87 * t883 - (t579 * t882 - (t588 * t881
+      - (t597 * t880 - (t605 * t879 + (t619 * t877 - t612 * t878))))))));
+  const Real t1078 = Real(1.0) / (t1014 * t1040 - (t967 * t1006 - (t810 * t960 + (model.c29 * (t87 * t87) -
+      (t579 * t799 - (t588 * t798 - (t597 * t797 - (t605 * t796 + (t619 * t794 - t612 * t795)))))))) -
       Real(3.988016169236579e-12));
-  const Real t1085 = t1069 * t1084;
-  const Real t1100 = t1081 * t1084;
-  const Real t1112 = t1069 * t1100 - (t1030 * t1071 - (t983 * t1033 - (t854 * t987 - (front_contacts1bn3p_x *
-      t890 - (front_contacts1bm_z * t889 - (t633 * t888 - (t644 * t887 - (t655 * t886 - (t662 * t885 + (t677 *
-      t883 - t669 * t884))))))))));
-  const Real t1114 = Real(1.0) / (t1069 * t1085 - (t1030 * t1059 - (t983 * t1022 - (t854 * t976 -
-      (Real(3.571428571428571) * (front_contacts1bn3p_x * front_contacts1bn3p_x) - (front_contacts1bm_z * t843
-      - (t633 * t842 - (t644 * t841 - (t655 * t840 - (t662 * t839 + (t677 * t837 - t669 * t838)))))))))) +
+  const Real t1079 = t1063 * t1078;
+  const Real t1094 = t1075 * t1078;
+  const Real t1106 = t1063 * t1094 - (t1024 * t1065 - (t977 * t1027 - (t848 * t981 - (front_contacts1bn3p_x *
+      t884 - (front_contacts1bm_z * t883 - (t627 * t882 - (t638 * t881 - (t649 * t880 - (t656 * t879 + (t671 *
+      t877 - t663 * t878))))))))));
+  const Real t1108 = Real(1.0) / (t1063 * t1079 - (t1024 * t1053 - (t977 * t1016 - (t848 * t970 -
+      (Real(3.571428571428571) * (front_contacts1bn3p_x * front_contacts1bn3p_x) - (front_contacts1bm_z * t837
+      - (t627 * t836 - (t638 * t835 - (t649 * t834 - (t656 * t833 + (t671 * t831 - t663 * t832)))))))))) +
       Real(4.6476630875276904e-11));
-  const Real t1115 = t1112 * t1114;
-  const Real t1131 = Real(1.0) / (t1112 * t1115 - (t1081 * t1100 - (t1041 * t1071 - (t994 * t1033 - (t901 *
-      t987 - (front_contacts2bn3p_x * t890 - (front_contacts2bm_z * t889 - (t685 * t888 - (t696 * t887 - (t707
-      * t886 - (t714 * t885 + (t729 * t883 - t722 * t884))))))))))) - Real(2.7054786900152528e-11));
-  const Real t1136 = t50 * state.z[5] + (t48 * state.z[3] + t49 * state.z[4]);
-  const Real t1141 = t49 * state.z[5] + (t47 * state.z[3] - t50 * state.z[4]);
-  const Real t1146 = t48 * state.z[5] - (t50 * state.z[3] + t47 * state.z[4]);
-  const Real t1151 = t47 * state.z[5] - (t49 * state.z[3] - t48 * state.z[4]);
-  const Real t1173 = state.z[4] + c2 * state.z[8];
-  const Real t1174 = Real(2.0) * state.y[3];
-  const Real t1185 = q0d1 * t1146 - q0d2 * t1141;
-  const Real t1187 = t1141 * t1174 - q0d1 * t1136;
-  const Real t1189 = t1146 * t1174 + q0d2 * t1136;
-  const Real t1192 = q0d3 * t1146 - q0d2 * t1151;
-  const Real t1194 = q0d3 * t1141 + q0d1 * t1151;
-  const Real t1196 = q0d3 * t1136 - t1151 * t1174;
-  const Real t1197 = t1185 - t1196;
-  const Real t1198 = t1185 + t1196;
-  const Real t1200 = rear_contactc_z * state.z[5];
-  const Real t1203 = state.z[4] + state.z[6];
-  const Real t1204 = t51 * t53;
-  const Real t1205 = t51 * model.rear_radius;
-  const Real t1209 = t52 * t1205 - t52 * rear_contactc_z * t1204;
-  const Real t1212 = rear_contactc_z * state.z[3];
-  const Real t1222 = q0r2_y * t1203 - (q0r2_z * state.z[5] - q0r2_x * state.z[3]);
-  const Real t1224 = model.rear_radius * state.z[4];
-  const Real t1225 = model.rear_radius * state.z[3];
-  const Real t1228 = rear_contactc_z * t1203 + t59 * t1222;
-  const Real t1237 = q0r0_z * state.z[4] - q0r0_y * state.z[5];
-  const Real t1244 = Real(0.9510565162951535) * state.z[7] + (state.z[5] + front_contactbd2p_z * state.z[8]);
-  const Real t1251 = t70 * (t55 * front_contactc_z) - (t72 + t72);
-  const Real t1255 = front_contactbd2p_x * state.z[8] - (state.z[3] + Real(0.3090169943749474) * state.z[7]);
-  const Real t1263 = q0r2_y * t1173 - (q0r2_z * t1244 + q0r2_x * t1255);
-  const Real t1265 = t72 * t1263;
-  const Real t1274 = q0r1_x * state.z[5] - q0r1_z * state.z[3];
-  const Real t1283 = front_contactc_z * t1173 - c2 * t1265;
-  const Real t1286 = c2 * front_contacts2bf2_y + s2 * q0r1_y;
-  const Real t1294 = front_contactbx3_x * state.z[7];
-  const Real t1295 = Real(0.9510565162951535) * t1294;
-  const Real t1297 = Real(0.3090169943749474) * t1294;
-  const Real t1299 = t1295 + (front_contactbx2p_z * state.z[4] + front_contactbx3_x * state.z[5]);
-  const Real t1301 = front_contactbx3_y * state.z[7] + (front_contactbx2p_x * state.z[5] + front_contactbx2p_z
-      * state.z[3]);
-  const Real t1303 = t1297 - (front_contactbx2p_x * state.z[4] - front_contactbx3_x * state.z[3]);
-  const Real t1309 = front_contactbd2p_x * t1265 - front_contactc_z * t1255;
-  const Real t1314 = t1189 + t1194;
-  const Real t1315 = t1189 - t1194;
-  const Real t1317 = front_contactbd2p_z * t1265 - front_contactc_z * t1244;
-  const Real t1339 = t81 * state.z[7];
-  const Real t1345 = Real(0.9510565162951535) * (t1314 * t1339);
-  const Real t1366 = t1187 - t1192;
-  const Real t1369 = t1146 * (q0d2 + q0d2) - t1141 * (q0d1 + q0d1);
-  const Real t1382 = q0r2_x * state.z[4] - q0r2_y * state.z[3];
-  const Real t1384 = Real(0.3090169943749474) * (t1339 * t1382);
-  const Real t1389 = Real(2.0) * t58 + t1205 * (t52 * t53 * t1204);
-  const Real t1409 = t1187 + t1192;
-  const Real t1414 = c2 * t1366 + (front_contactbd2p_z * t1382 - (t69 * state.z[7] + front_contactbd2p_x *
-      t1314));
+  const Real t1109 = t1106 * t1108;
+  const Real t1125 = Real(1.0) / (t1106 * t1109 - (t1075 * t1094 - (t1035 * t1065 - (t988 * t1027 - (t895 *
+      t981 - (front_contacts2bn3p_x * t884 - (front_contacts2bm_z * t883 - (t679 * t882 - (t690 * t881 - (t701
+      * t880 - (t708 * t879 + (t723 * t877 - t716 * t878))))))))))) - Real(2.7054786900152528e-11));
+  const Real t1130 = t50 * state.z[5] + (t48 * state.z[3] + t49 * state.z[4]);
+  const Real t1135 = t49 * state.z[5] + (t47 * state.z[3] - t50 * state.z[4]);
+  const Real t1140 = t48 * state.z[5] - (t50 * state.z[3] + t47 * state.z[4]);
+  const Real t1145 = t47 * state.z[5] - (t49 * state.z[3] - t48 * state.z[4]);
+  const Real t1147 = Real(2.0) * state.y[3];
+  const Real t1149 = c2 * Real(0.9510565162951535);
+  const Real t1150 = c2 * Real(0.3090169943749474);
+  const Real t1171 = state.z[4] + c2 * state.z[8];
+  const Real t1173 = state.z[3] + Real(0.3090169943749474) * state.z[7];
+  const Real t1174 = front_contactbd2p_x * state.z[8] - t1173;
+  const Real t1183 = q0d3 * t1130 - t1145 * t1147;
+  const Real t1186 = q0d2 * t1145 - q0d3 * t1140;
+  const Real t1188 = q0d2 * t1130 + t1140 * t1147;
+  const Real t1192 = q0d1 * t1130 - t1135 * t1147;
+  const Real t1194 = q0d1 * t1145 + q0d3 * t1135;
+  const Real t1195 = t1186 - t1192;
+  const Real t1197 = q0d1 * t1140 - q0d2 * t1135;
+  const Real t1198 = t1140 * (q0d2 + q0d2) - t1135 * (q0d1 + q0d1);
+  const Real t1199 = t1188 + t1194;
+  const Real t1200 = t1188 - t1194;
+  const Real t1201 = front_contactbx3_x * Real(0.3090169943749474);
+  const Real t1208 = q0r0_z * state.z[4] - q0r0_y * state.z[5];
+  const Real t1214 = front_contactbx3_x * Real(0.9510565162951535);
+  const Real t1222 = q0r1_x * state.z[5] - q0r1_z * state.z[3];
+  const Real t1225 = state.z[7] * t1214 + (front_contactbx2p_z * state.z[4] + front_contactbx3_x *
+      state.z[5]);
+  const Real t1227 = front_contactbx2p_x * state.z[4] - front_contactbx3_x * t1173;
+  const Real t1232 = rear_contactc_z * state.z[5];
+  const Real t1237 = Real(0.9510565162951535) * state.z[7] + (state.z[5] + front_contactbd2p_z * state.z[8]);
+  const Real t1249 = q0r2_z * t1237 + (q0r2_x * t1174 - q0r2_y * t1171);
+  const Real t1255 = front_contactbx3_y * state.z[7] + (front_contactbx2p_z * state.z[3] + front_contactbx2p_x
+      * state.z[5]);
+  const Real t1259 = t51 * t88;
+  const Real t1261 = t51 + t88 * t1259;
+  const Real t1265 = t89 + (t89 - rear_contactc_z * t1259);
+  const Real t1268 = rear_contactc_z * state.z[3];
+  const Real t1271 = model.rear_radius * state.z[3];
+  const Real t1272 = state.z[4] + state.z[6];
+  const Real t1280 = model.rear_radius * state.z[4];
+  const Real t1289 = q0r2_y * t1272 - (q0r2_z * state.z[5] - q0r2_x * state.z[3]);
+  const Real t1294 = rear_contactc_z * t1272 + t89 * t1289;
+  const Real t1295 = t1186 + t1192;
+  const Real t1314 = Real(0.9510565162951535) * (t1199 * (t85 * state.z[7]));
+  const Real t1317 = Real(2.0) * t56;
+  const Real t1333 = t53 * t57;
+  const Real t1335 = t1317 + t52 * t54 * t1333;
+  const Real t1339 = t57 * t1249;
+  const Real t1367 = front_contactbd2p_x * t1199 + (t63 * state.z[7] - (front_contactbd2p_z * t1198 + c2 *
+      t1195));
+  const Real t1373 = front_contactbd2p_z * t1339 + front_contactc_z * t1237;
+  const Real t1378 = c2 * t1339 + front_contactc_z * t1171;
+  const Real t1380 = front_contactbd2p_x * t1339 + front_contactc_z * t1174;
+  const Real t1383 = t129 * t1333 - t52 * t1317;
+  const Real t1397 = model.rear_radius * t1195;
+  const Real t1401 = t1183 - t1197;
+  const Real t1402 = t1183 + t1197;
   const Real w2p_y = Real(0.3090169943749474) * state.z[5] - Real(0.9510565162951535) * state.z[3];
   const Real w2p_z = Real(0.3090169943749474) * state.z[3] + Real(0.9510565162951535) * state.z[5];
   const Real w2_z = state.z[7] + w2p_z;
@@ -1031,118 +1029,118 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real rf0_z = rf2p_z - (state.z[5] * ruh0 - h2c_z * ruw0);
   const Real tau_2_0 = input.u[0] - (rdn3_y + (w2p_y * rKx2 - (h2b_y * ra2o_y + (state.z[4] * rKy2 - h2b_x *
       ra2_y))));
-  const Real t1608 = t337 * tau_2_0 - (t327 * rQp3 - (model.r_steer_x * rdf2_x - (Real(0.9510565162951535) *
+  const Real t1591 = t331 * tau_2_0 - (t321 * rQp3 - (model.r_steer_x * rdf2_x - (Real(0.9510565162951535) *
       rdn3_y + (Real(0.3090169943749474) * rn2_y + (rdn1_x - (h2c_x * rfallW_y - (h2b_x * rfallW_x +
       (state.z[3] * rSu0_y - state.z[4] * rSu0_x))))))));
-  const Real t1625 = t378 * t1608 - (t357 * tau_2_0 - (t331 * rQp3 - (model.r_steer_z * rf2p_x +
+  const Real t1608 = t372 * t1591 - (t351 * tau_2_0 - (t325 * rQp3 - (model.r_steer_z * rf2p_x +
       (model.r_steer_x * rf2p_z + (rn2b_x - (rKy2 * z2_2 - (S2b_yz * zz_2 - (h2c_z * rfallW_x - (h2c_x *
       rfallW_z - (state.z[3] * rSu0_z + state.z[5] * rSu0_x))))))))));
-  const Real t1641 = t417 * t1625 - (t402 * t1608 - (t363 * tau_2_0 - (t334 * rQp3 + (model.r_steer_z * rdf2_x
+  const Real t1624 = t411 * t1608 - (t396 * t1591 - (t357 * tau_2_0 - (t328 * rQp3 + (model.r_steer_z * rdf2_x
       + (Real(0.9510565162951535) * rn2_y - (Real(0.3090169943749474) * rdn3_y - (rdn1_y + (h2c_z * rfallW_y -
       (h2b_x * rfallW_z - (state.z[4] * rSu0_z + state.z[5] * rSu0_y))))))))));
-  const Real t1653 = t449 * t1641 - (t439 * t1625 - (t407 * t1608 - (t368 * tau_2_0 - (q0r2_z * rf0_z -
+  const Real t1636 = t443 * t1624 - (t433 * t1608 - (t401 * t1591 - (t362 * tau_2_0 - (q0r2_z * rf0_z -
       (q0r2_x * rf0_x - q0r2_y * rf0_y))))) + Real(922.1400000000001);
-  const Real t1663 = t470 * t1653 - (t464 * t1641 - (t443 * t1625 - (t411 * t1608 - (t372 * tau_2_0 - (q0r1_z
+  const Real t1646 = t464 * t1636 - (t458 * t1624 - (t437 * t1608 - (t405 * t1591 - (t366 * tau_2_0 - (q0r1_z
       * rf0_z + (q0r1_x * rf0_x + q0r1_y * rf0_y))))));
-  const Real t1673 = t485 * t1663 - (t482 * t1653 - (t467 * t1641 - (t446 * t1625 - (t414 * t1608 - (t375 *
+  const Real t1656 = t479 * t1646 - (t476 * t1636 - (t461 * t1624 - (t440 * t1608 - (t408 * t1591 - (t369 *
       tau_2_0 - (q0r0_z * rf0_z + (q0r0_x * rf0_x - q0r0_y * rf0_y)))))));
-  const Real t1674 = t493 * t1673;
-  const Real t1675 = t484 * t1663;
-  const Real t1676 = t469 * t1653;
-  const Real t1677 = t448 * t1641;
-  const Real t1678 = t416 * t1625;
-  const Real t1679 = t377 * t1608;
-  const Real t1680 = model.c29 * tau_2_0;
-  const Real t1681 = Real(3.571428571428571) * rQp3;
-  const Real t1734 = t1366 * (t1225 - t1366 * t1389) + (state.z[5] * (t59 * t1314) + (t83 * t1679 - (t495 *
-      t1678 - (t503 * t1677 - (t510 * t1676 - (t516 * t1675 - (t522 * t1674 + (state.z[3] * (t59 * t1369) +
-      t1224 * t1314))))))));
-  const Real t1749 = t945 * t1734 - (rear_contacts1bn0_z * t1679 - (t524 * t1678 - (t533 * t1677 - (t539 *
-      t1676 - (t545 * t1675 - (t552 * t1674 + (t1200 * t1409 + (t1228 * t1274 + (t1198 * t1212 + (t1366 *
-      (t1222 * (q0r1_y * t1389) - (t1209 * (q0r1_y * t1203 - (q0r1_x * state.z[3] + q0r1_z * state.z[5])) -
-      rear_contactc_y * t1203)) + (t1382 * (rear_contactc_y * state.z[5]) + (t1314 * (rear_contactc_y *
-      state.z[3]) + (t1197 * t1225 - t1224 * t1237)))))))))))));
-  const Real t1769 = t1000 * t1749 - (t956 * t1734 - (rear_contacts2bn0_z * t1679 + (t554 * t1678 - (t563 *
-      t1677 - (t569 * t1676 - (t576 * t1675 - (t582 * t1674 + (t1225 * t1274 - (t1198 * t1224 + (t1366 *
-      (t1209 * (q0r0_y * t1203 + (q0r0_z * state.z[5] + q0r0_x * state.z[3])) - (rear_contactc_x * t1203 +
-      t1222 * (rear_contacts2bn0_y + t52 * rear_contactc_x * t1204))) - (rear_contactc_x * state.z[5] * t1382
-      + (rear_contactc_x * state.z[3] * t1314 - (t1200 * t1315 + (t1197 * t1228 + t1212 * t1237))))))))))))));
-  const Real t1796 = state.z[7] * (front_contactbx3_y - s2 * t72) * (t1366 + t1366) - (state.z[5] * (t81 *
-      t1314 - t86 * t1366) + (t1345 - (t1046 * t1769 - (t1012 * t1749 - (t966 * t1734 + (t92 * t1680 - (t585 *
-      t1679 - (t594 * t1678 - (t603 * t1677 - (t611 * t1676 - (t618 * t1675 - (t625 * t1674 -
-      (model.front_radius * (t1414 * ((t55 + t54 * (t70 * (t55 * t56))) * t1414)) - (t1384 + (t1384 -
-      (state.z[4] * (t89 * t1314 + t86 * t1369) - (state.z[7] * (state.z[7] * (front_contactbd0p_z * t72 -
-      model.r_front_y * t69)) - (t1345 - state.z[3] * (t89 * t1366 + t81 * t1369)))))))))))))))))));
-  const Real t1824 = t1237 * (t1295 + t1299) + (t1085 * t1796 - (t1059 * t1769 - (t1022 * t1749 - (t976 *
-      t1734 + (front_contacts1bn3p_x * t1681 + (front_contacts1bm_z * t1680 - (t633 * t1679 - (t644 * t1678 -
-      (t655 * t1677 - (t662 * t1676 - (t669 * t1675 - (t677 * t1674 - (t1317 * t1409 - (t1274 * t1283 + (t1198
-      * t1309 - (t1414 * (t1263 * (t70 * (t55 * front_contactc_y) + t55 * t132) - t1251 * (q0r1_z * t1244 -
-      (q0r1_x * t1255 + q0r1_y * t1173))) - (front_contactc_y * t1173 * t1366 + (front_contactc_y * t1244 *
-      t1382 - ((q0r0_x * state.z[4] - q0r0_y * state.z[3]) * t1297 - (state.z[7] * (t1265 * t1286 -
-      (state.z[8] * (c2 * front_contacts1bn2_y + s2 * front_contacts1bn0_y) + (front_contactbx3_y * (q0r0_z *
-      state.z[3] - q0r0_x * state.z[5]) + state.z[7] * (front_contactbx3_y * front_contacts1bf2_y -
-      front_contactbx3_x * q0r0_y)))) - (t1255 * (front_contactc_y * t1314) - (t1197 * t1301 + t1303 *
-      t1315))))))))))))))))))))));
-  const Real t1857 = t1131 * (t1115 * t1824 - (t1100 * t1796 - (t1071 * t1769 - (t1033 * t1749 - (t987 * t1734
-      + (front_contacts2bn3p_x * t1681 + (front_contacts2bm_z * t1680 - (t685 * t1679 - (t696 * t1678 - (t707
-      * t1677 - (t714 * t1676 - (t722 * t1675 - (t729 * t1674 + (t1303 * t1409 + (t1274 * t1301 - (t1198 *
-      t1299 - (t1414 * ((t55 * t170 + t70 * (t55 * front_contactc_x)) * t1263 - t1251 * (q0r0_z * t1244 +
-      (q0r0_y * t1173 - q0r0_x * t1255))) - (front_contactc_x * t1173 * t1366 + (front_contactc_x * t1244 *
-      t1382 + ((q0r1_x * state.z[4] + q0r1_y * state.z[3]) * t1297 + ((q0r1_z * state.z[4] + q0r1_y *
-      state.z[5]) * t1295 + (state.z[7] * (model.r_front_y * (state.z[7] * t1286) + (s2 *
-      (front_contacts2bn0_y * state.z[8] - q0r0_y * t1265) - (c2 * (front_contacts2bn2_y * state.z[8] -
-      front_contacts1bf2_y * t1265) + front_contactbx3_y * t1274))) - (front_contactc_x * t1255 * t1314 +
-      (t1315 * t1317 - (t1197 * t1283 + t1237 * t1309)))))))))))))))))))))))));
-  const Real t1859 = t1114 * t1824 - t1115 * t1857;
-  const Real t1863 = t1100 * t1857 - (t1084 * t1796 - t1085 * t1859);
-  const Real t1869 = t1071 * t1857 + (t1059 * t1859 - (t1045 * t1769 + t1046 * t1863));
-  const Real t1877 = t1033 * t1857 + (t1022 * t1859 - (t1012 * t1863 + (t999 * t1749 + t1000 * t1869)));
-  const Real t1887 = t987 * t1857 + (t976 * t1859 - (t966 * t1863 + (t956 * t1869 + (t944 * t1734 + t945 *
-      t1877))));
-  const Real t1888 = Real(1.8087085566416913e-12) * t1887;
-  const Real t1895 = Real(7.806783314072456e-11) * t1877 - t945 * t1888;
-  const Real t1902 = t1000 * t1895 - (Real(8.816994788327498e-12) * t1869 - t956 * t1888);
-  const Real t1909 = t1046 * t1902 - (t1012 * t1895 - (Real(3.988016169236579e-12) * t1863 - t966 * t1888));
-  const Real t1916 = t1085 * t1909 - (t1059 * t1902 - (t1022 * t1895 + (Real(4.6476630875276904e-11) * t1859 +
-      t976 * t1888)));
-  const Real t1929 = t1131 * (t1115 * t1916 - (t1100 * t1909 - (t1071 * t1902 - (t1033 * t1895 +
-      (Real(2.7054786900152528e-11) * t1857 + t987 * t1888)))));
-  const Real t1931 = t1114 * t1916 - t1115 * t1929;
-  const Real t1935 = t1100 * t1929 - (t1084 * t1909 - t1085 * t1931);
-  const Real t1941 = t1071 * t1929 + (t1059 * t1931 - (t1045 * t1902 + t1046 * t1935));
-  const Real t1949 = t1033 * t1929 + (t1022 * t1931 - (t1012 * t1935 + (t999 * t1895 + t1000 * t1941)));
-  const Real t1960 = t987 * t1929 + (t976 * t1931 - (t966 * t1935 + (t956 * t1941 + (t945 * t1949 - (t1887 +
-      t944 * t1888)))));
-  const Real t1961 = t1877 + t1949;
-  const Real t1962 = t1869 + t1941;
-  const Real t1963 = t1863 + t1935;
-  const Real t1964 = t1859 + t1931;
-  const Real t1965 = t1857 + t1929;
-  const Real t2051 = t493 * (t729 * t1965 + (t677 * t1964 - (t625 * t1963 - (t582 * t1962 - (t552 * t1961 +
-      (t1673 + t522 * t1960))))));
-  const Real t2054 = t484 * (t722 * t1965 + (t669 * t1964 - (t618 * t1963 - (t576 * t1962 - (t545 * t1961 +
-      (t1663 + t516 * t1960)))))) - t485 * t2051;
-  const Real t2059 = t470 * t2054 - (t469 * (t714 * t1965 + (t662 * t1964 - (t611 * t1963 - (t569 * t1962 -
-      (t539 * t1961 + (t1653 + t510 * t1960)))))) - t482 * t2051);
-  const Real t2066 = t449 * t2059 - (t464 * t2054 - (t448 * (t707 * t1965 + (t655 * t1964 - (t603 * t1963 -
-      (t563 * t1962 - (t533 * t1961 + (t1641 + t503 * t1960)))))) - t467 * t2051));
-  const Real t2075 = t417 * t2066 - (t439 * t2059 - (t443 * t2054 - (t416 * (t696 * t1965 + (t644 * t1964 -
-      (t594 * t1963 - (t554 * t1962 - (t524 * t1961 + (t1625 + t495 * t1960)))))) - t446 * t2051)));
-  const Real t2086 = t378 * t2075 - (t402 * t2066 - (t407 * t2059 - (t411 * t2054 - (t377 * (t685 * t1965 +
-      (t633 * t1964 - (t585 * t1963 + (rear_contacts2bn0_z * t1962 + (rear_contacts1bn0_z * t1961 + (t1608 +
-      t83 * t1960)))))) - t414 * t2051))));
-  zdot[0] = -t2051;
-  zdot[1] = -t2054;
-  zdot[2] = -t2059;
-  zdot[3] = t2066;
-  zdot[4] = t2075;
-  zdot[5] = -t2086;
-  zdot[6] = -(t2075 + Real(8.333333333333334) * (rear_contacts1bn0_y * t1961 - rear_contacts2bn0_y * t1962));
-  zdot[7] = -(t337 * t2086 - (t357 * t2075 - (t363 * t2066 - (t368 * t2059 - (t372 * t2054 - (model.c29 *
-      (front_contacts2bm_z * t1965 + (front_contacts1bm_z * t1964 - (tau_2_0 + t92 * t1963))) - t375 *
-      t2051))))));
-  zdot[8] = t327 * t2086 - (t331 * t2075 - (Real(3.571428571428571) * (front_contacts2bn3p_x * t1965 + (rQp3 +
-      front_contacts1bn3p_x * t1964)) + t334 * t2066));
+  const Real t1657 = t487 * t1656;
+  const Real t1658 = t478 * t1646;
+  const Real t1659 = t463 * t1636;
+  const Real t1660 = t442 * t1624;
+  const Real t1661 = t410 * t1608;
+  const Real t1662 = t371 * t1591;
+  const Real t1663 = model.c29 * tau_2_0;
+  const Real t1664 = Real(3.571428571428571) * rQp3;
+  const Real t1716 = t1199 * (t1280 - t89 * state.z[5]) - (t91 * t1662 - (t489 * t1661 - (t497 * t1660 - (t504
+      * t1659 - (t510 * t1658 - (t516 * t1657 + (state.z[3] * (t89 * t1198 - t1397) + t1195 * t1261 *
+      t1397)))))));
+  const Real t1731 = t939 * t1716 + (rear_contacts1bn0_z * t1662 - (t518 * t1661 - (t527 * t1660 - (t533 *
+      t1659 - (t539 * t1658 - (t546 * t1657 + (t1268 * t1402 - (t1232 * t1295 - (t1222 * t1294 - (t1208 *
+      t1280 + (t1271 * t1401 - (t1199 * (rear_contactc_y * state.z[3]) + (t1198 * (rear_contactc_y *
+      state.z[5]) + t1195 * (t102 * t1261 * t1289 - (t1265 * (q0r1_y * t1272 - (q0r1_z * state.z[5] + q0r1_x *
+      state.z[3])) - rear_contactc_y * t1272)))))))))))))));
+  const Real t1751 = t994 * t1731 - (t950 * t1716 + (rear_contacts2bn0_z * t1662 + (t548 * t1661 - (t557 *
+      t1660 - (t563 * t1659 - (t570 * t1658 - (t576 * t1657 - (t1200 * t1232 + (t1280 * t1402 - (t1222 * t1271
+      - (t1208 * t1268 - (t1294 * t1401 + (t1199 * (rear_contactc_x * state.z[3]) + (t1198 * (rear_contactc_x
+      * state.z[5]) + t1195 * (t112 * t1261 * t1289 - (t1265 * (q0r0_y * t1272 + (q0r0_z * state.z[5] + q0r0_x
+      * state.z[3])) - rear_contactc_x * t1272))))))))))))))));
+  const Real t1785 = t1195 * (t72 * state.z[5] + t70 * state.z[3]) - (t1199 * (t85 * state.z[5] + t70 *
+      state.z[4]) - (t1198 * (t85 * state.z[3] - t72 * state.z[4]) + (state.z[7] * (t85 * t1198 *
+      Real(0.6180339887498948) + (state.z[7] * (front_contactbd0p_z * t57 - model.r_front_y * t63) + Real(2.0)
+      * (t1195 * (front_contactbx3_y - s2 * t57)))) - (t1040 * t1751 - (t1006 * t1731 - (t960 * t1716 - (t87 *
+      t1663 - (t579 * t1662 - (t588 * t1661 - (t597 * t1660 - (t605 * t1659 - (t612 * t1658 - (t619 * t1657 -
+      (t1367 * (t1335 * t1367) + (t1314 + t1314)))))))))))))));
+  const Real t1810 = t1079 * t1785 + (t1053 * t1751 - (t1016 * t1731 - (t970 * t1716 - (front_contacts1bn3p_x
+      * t1664 + (front_contacts1bm_z * t1663 - (t627 * t1662 - (t638 * t1661 - (t649 * t1660 - (t656 * t1659 -
+      (t663 * t1658 - (t671 * t1657 - (t1200 * t1227 + (t1380 * t1402 + (t1295 * t1373 - (t1222 * t1378 -
+      (t1208 * t1225 + (t1255 * t1401 + (t1367 * (t1249 * (front_contactbd0p_y * t1335) - t1383 * (q0r1_y *
+      t1171 - (q0r1_z * t1237 - q0r1_x * t1174))) + (state.z[7] * (t1208 * t1214 - (t1339 * (q0r1_x * t1149 -
+      (s2 * q0r1_y + q0r1_z * t1150)) + ((q0r0_y * state.z[3] - q0r0_x * state.z[4]) * t1201 - (state.z[7] *
+      (front_contactbx3_y * front_contacts1bf2_y - front_contactbx3_x * q0r0_y) + (state.z[8] * (c2 *
+      front_contacts1bn2_y + s2 * front_contacts1bn0_y) + front_contactbx3_y * (q0r0_z * state.z[3] - q0r0_x *
+      state.z[5])))))) + (front_contactc_y * t1174 * t1199 - (t1198 * (front_contactc_y * t1237) + t1195 *
+      (front_contactc_y * t1171))))))))))))))))))))));
+  const Real t1841 = t1125 * (t1109 * t1810 - (t1094 * t1785 + (t1065 * t1751 - (t1027 * t1731 - (t981 * t1716
+      - (front_contacts2bn3p_x * t1664 + (front_contacts2bm_z * t1663 - (t679 * t1662 - (t690 * t1661 - (t701
+      * t1660 - (t708 * t1659 - (t716 * t1658 - (t723 * t1657 - (t1200 * t1373 + (t1225 * t1402 - (t1227 *
+      t1295 + (t1222 * t1255 + (t1208 * t1380 + (t1378 * t1401 + (t1367 * (t1249 * (front_contactbd0p_x *
+      t1335) + t1383 * (q0r0_z * t1237 + (q0r0_y * t1171 - q0r0_x * t1174))) - (state.z[7] * (t1214 * (q0r1_y
+      * state.z[5] + q0r1_z * state.z[4]) + (t1339 * (q0r0_x * t1149 + (s2 * q0r0_y - q0r0_z * t1150)) +
+      (t1201 * (q0r1_y * state.z[3] + q0r1_x * state.z[4]) + (state.z[7] * (front_contactbx3_x * q0r1_y) -
+      (state.z[8] * (c2 * front_contacts2bn2_y - s2 * front_contacts2bn0_y) - front_contactbx3_y *
+      (front_contacts2bf2_y * state.z[7] - t1222)))))) + (t1171 * (front_contactc_x * t1195) - (t1199 *
+      (front_contactc_x * t1174) - t1237 * (front_contactc_x * t1198))))))))))))))))))))))));
+  const Real t1843 = t1108 * t1810 - t1109 * t1841;
+  const Real t1847 = t1094 * t1841 - (t1078 * t1785 - t1079 * t1843);
+  const Real t1853 = t1065 * t1841 + (t1053 * t1843 + (t1039 * t1751 - t1040 * t1847));
+  const Real t1861 = t1027 * t1841 + (t1016 * t1843 - (t1006 * t1847 - (t993 * t1731 - t994 * t1853)));
+  const Real t1871 = t981 * t1841 + (t970 * t1843 - (t960 * t1847 + (t950 * t1853 - (t938 * t1716 - t939 *
+      t1861))));
+  const Real t1872 = Real(1.8087085566416913e-12) * t1871;
+  const Real t1879 = Real(7.806783314072456e-11) * t1861 - t939 * t1872;
+  const Real t1886 = t994 * t1879 - (Real(8.816994788327498e-12) * t1853 - t950 * t1872);
+  const Real t1893 = t1040 * t1886 - (t1006 * t1879 - (Real(3.988016169236579e-12) * t1847 - t960 * t1872));
+  const Real t1900 = t1079 * t1893 - (t1053 * t1886 - (t1016 * t1879 + (Real(4.6476630875276904e-11) * t1843 +
+      t970 * t1872)));
+  const Real t1913 = t1125 * (t1109 * t1900 - (t1094 * t1893 - (t1065 * t1886 - (t1027 * t1879 +
+      (Real(2.7054786900152528e-11) * t1841 + t981 * t1872)))));
+  const Real t1915 = t1108 * t1900 - t1109 * t1913;
+  const Real t1919 = t1094 * t1913 - (t1078 * t1893 - t1079 * t1915);
+  const Real t1925 = t1065 * t1913 + (t1053 * t1915 - (t1039 * t1886 + t1040 * t1919));
+  const Real t1933 = t1027 * t1913 + (t1016 * t1915 - (t1006 * t1919 + (t993 * t1879 + t994 * t1925)));
+  const Real t1944 = t981 * t1913 + (t970 * t1915 - (t960 * t1919 + (t950 * t1925 + (t939 * t1933 - (t1871 +
+      t938 * t1872)))));
+  const Real t1945 = t1861 + t1933;
+  const Real t1946 = t1853 + t1925;
+  const Real t1947 = t1847 + t1919;
+  const Real t1948 = t1843 + t1915;
+  const Real t1949 = t1841 + t1913;
+  const Real t2035 = t487 * (t723 * t1949 + (t671 * t1948 - (t619 * t1947 - (t576 * t1946 - (t546 * t1945 +
+      (t1656 + t516 * t1944))))));
+  const Real t2038 = t478 * (t716 * t1949 + (t663 * t1948 - (t612 * t1947 - (t570 * t1946 - (t539 * t1945 +
+      (t1646 + t510 * t1944)))))) - t479 * t2035;
+  const Real t2043 = t464 * t2038 - (t463 * (t708 * t1949 + (t656 * t1948 - (t605 * t1947 - (t563 * t1946 -
+      (t533 * t1945 + (t1636 + t504 * t1944)))))) - t476 * t2035);
+  const Real t2050 = t443 * t2043 - (t458 * t2038 - (t442 * (t701 * t1949 + (t649 * t1948 - (t597 * t1947 -
+      (t557 * t1946 - (t527 * t1945 + (t1624 + t497 * t1944)))))) - t461 * t2035));
+  const Real t2059 = t411 * t2050 - (t433 * t2043 - (t437 * t2038 - (t410 * (t690 * t1949 + (t638 * t1948 -
+      (t588 * t1947 - (t548 * t1946 - (t518 * t1945 + (t1608 + t489 * t1944)))))) - t440 * t2035)));
+  const Real t2070 = t372 * t2059 - (t396 * t2050 - (t401 * t2043 - (t405 * t2038 - (t371 * (t679 * t1949 +
+      (t627 * t1948 - (t579 * t1947 + (rear_contacts2bn0_z * t1946 + (rear_contacts1bn0_z * t1945 + (t1591 +
+      t91 * t1944)))))) - t408 * t2035))));
+  zdot[0] = -t2035;
+  zdot[1] = -t2038;
+  zdot[2] = -t2043;
+  zdot[3] = t2050;
+  zdot[4] = t2059;
+  zdot[5] = -t2070;
+  zdot[6] = -(t2059 + Real(8.333333333333334) * (rear_contacts1bn0_y * t1945 - rear_contacts2bn0_y * t1946));
+  zdot[7] = -(t331 * t2070 - (t351 * t2059 - (t357 * t2050 - (t362 * t2043 - (t366 * t2038 - (model.c29 *
+      (front_contacts2bm_z * t1949 + (front_contacts1bm_z * t1948 - (tau_2_0 + t87 * t1947))) - t369 *
+      t2035))))));
+  zdot[8] = t321 * t2070 - (t325 * t2059 - (Real(3.571428571428571) * (front_contacts2bn3p_x * t1949 + (rQp3 +
+      front_contacts1bn3p_x * t1948)) + t328 * t2050));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -1439,16 +1437,16 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
       c2);
   const Real t52 = Real(1.0) - front_contactbd0p_z * front_contactbd0p_z;
   const Real front_contactup = detail::square_root(t52);
-  const Real t60 = (q0r2_y + q0r2_y) / rear_contactup * model.c30;
-  const Real t66 = q0r2_x * Real(0.9510565162951535) + q0r2_z * Real(0.3090169943749474);
-  const Real t71 = (front_contactbd0p_z + front_contactbd0p_z) / front_contactup * model.c31;
-  const Real t80 = (q011 + q022) * Real(0.5) - (state.y[6] * state.y[6] + state.y[3] * state.y[3]);
-  const Real t82 = front_contactbx3_x + c2 * t71;
-  const Real t84 = q0r2_x * t60;
-  const Real t87 = front_contactbx2p_x - front_contactbd2p_x * t71;
-  const Real t90 = front_contactbx2p_z - front_contactbd2p_z * t71;
-  const Real t93 = front_contactbx3_x * t66 + ((q0r2_y * s2 + c2 * t66) * t71 - q0r2_y * front_contactbx3_y);
-  const Real q012 = state.y[4] * q0d2;
+  const Real t60 = (front_contactbd0p_z + front_contactbd0p_z) / front_contactup * model.c30;
+  const Real t71 = front_contactbx2p_z - front_contactbd2p_z * t60;
+  const Real t73 = front_contactbx2p_x - front_contactbd2p_x * t60;
+  const Real t79 = (q011 + q022) * Real(0.5) - (state.y[6] * state.y[6] + state.y[3] * state.y[3]);
+  const Real q012 = q0d1 * state.y[5];
+  const Real t87 = front_contactbx3_x + c2 * t60;
+  const Real t89 = t60 * (q0r2_y * s2 + c2 * (q0r2_z * Real(0.3090169943749474) + q0r2_x *
+      Real(0.9510565162951535))) + model.r_front_y * front_contactbd0p_z;
+  const Real t92 = (q0r2_y + q0r2_y) / rear_contactup * model.c31;
+  const Real t94 = q0r2_x * t92;
   const Real q033 = state.y[6] * q0d3;
   const Real q003 = q0d3 * state.y[3];
   const Real q0r0_x = Real(1.0) - (q022 + q033);
@@ -1456,14 +1454,14 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real q0r1_x = q012 + q003;
   const Real q0r1_y = t14 + q033;
   const Real q0r1_z = q023 - q001;
-  const Real t107 = model.rear_radius * q0r1_y;
-  const Real rear_contactc_y = q0r2_y * t107 / rear_contactup;
+  const Real t105 = model.rear_radius * q0r1_y;
+  const Real rear_contactc_y = q0r2_y * t105 / rear_contactup;
   const Real rear_contactc_z = model.rear_radius * (t18 / rear_contactup);
   const Real rear_contacts1bn0_y = q0r1_y * rear_contactc_z + q0r2_y * rear_contactc_y;
   const Real rear_contacts1bn0_z = q0r1_z * rear_contactc_z + q0r2_z * rear_contactc_y;
-  const Real t120 = model.rear_radius * q0r0_y;
+  const Real t118 = model.rear_radius * q0r0_y;
   const Real q0r0_z = q013 + q002;
-  const Real rear_contactc_x = q0r2_y * t120 / rear_contactup;
+  const Real rear_contactc_x = q0r2_y * t118 / rear_contactup;
   const Real rear_contacts2bn0_y = q0r0_y * rear_contactc_z + q0r2_y * rear_contactc_x;
   const Real rear_contacts2bn0_z = rear_contactc_z * q0r0_z - q0r2_z * rear_contactc_x;
   const Real front_contactbd0p_y = front_contactbd2p_z * q0r1_z - (front_contactbd2p_x * q0r1_x + c2 *
@@ -1501,26 +1499,26 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real h2b_y = c2 * model.front_h_y;
   const Real h2at2_x = Real(0.9510565162951535) * h2b_y;
   const Real h2at2_z = Real(0.3090169943749474) * h2b_y;
-  const Real t225 = Real(0.3090169943749474) * S2b_yz;
-  const Real S2at2r0_y = t225 + Real(0.9510565162951535) * S2b_yy;
-  const Real t228 = Real(0.9510565162951535) * S2b_yz;
-  const Real S2at2r0_z = t228 + Real(0.04326237921249264);
-  const Real S2at2r2_y = t228 - Real(0.3090169943749474) * S2b_yy;
+  const Real t223 = Real(0.3090169943749474) * S2b_yz;
+  const Real S2at2r0_y = t223 + Real(0.9510565162951535) * S2b_yy;
+  const Real t226 = Real(0.9510565162951535) * S2b_yz;
+  const Real S2at2r0_z = t226 + Real(0.04326237921249264);
+  const Real S2at2r2_y = t226 - Real(0.3090169943749474) * S2b_yy;
   const Real h2c_x = h2at2_x + model.c6;
   const Real h2c_z = h2at2_z + model.c7;
-  const Real t243 = h2b_x * model.r_steer_x;
+  const Real t241 = h2b_x * model.r_steer_x;
   const Real S2c_yy = S2b_xx - Real(0.5002999999999995);
-  const Real t247 = h2b_x * model.r_steer_z;
+  const Real t245 = h2b_x * model.r_steer_z;
   const Real S1c_xx = (h2at2_x + model.h_x) * model.c14 + (Real(0.9510565162951535) * S2at2r0_y +
       Real(0.3090169943749474) * (S2at2r0_z + model.SR_x)) + model.c16;
-  const Real t260 = h2at2_z - model.h_z;
-  const Real S1c_zz = t260 * model.c17 - (Real(0.3090169943749474) * S2at2r2_y + Real(0.9510565162951535) *
-      (t225 - model.c18)) + model.c19;
+  const Real t258 = h2at2_z - model.h_z;
+  const Real S1c_zz = t258 * model.c17 - (Real(0.3090169943749474) * S2at2r2_y + Real(0.9510565162951535) *
+      (t223 - model.c18)) + model.c19;
   const Real p_7_2l_x = h2b_y * model.r_steer_z;
   const Real p_7_2l_z = h2b_y * model.r_steer_x;
-  const Real p_7_2n_x = t228 - p_7_2l_x + model.c20;
-  const Real p_7_2n_y = t247 * Real(0.9510565162951535) - (S2b_xz + t243 * Real(0.3090169943749474));
-  const Real p_7_2n_z = t225 + p_7_2l_z - model.c21;
+  const Real p_7_2n_x = t226 - p_7_2l_x + model.c20;
+  const Real p_7_2n_y = t245 * Real(0.9510565162951535) - (S2b_xz + t241 * Real(0.3090169943749474));
+  const Real p_7_2n_z = t223 + p_7_2l_z - model.c21;
   const Real p_7_0f_x = front_contactbd0p_x * model.front_h_y;
   const Real p_7_0f_y = front_contactbd0p_y * model.front_h_y;
   const Real p_7_0f_z = front_contactbd0p_z * model.front_h_y;
@@ -1528,292 +1526,292 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real p_8_3N_y = s2 * Real(0.28);
   const Real p_8_2n_x = Real(0.9510565162951535) * p_8_3N_y;
   const Real p_8_2n_z = Real(0.3090169943749474) * p_8_3N_y;
-  const Real t311 = p_8_2n_z * Real(3.571428571428571);
-  const Real t315 = p_8_3N_x * Real(3.571428571428571);
-  const Real t318 = p_8_2n_x * Real(3.571428571428571);
-  const Real t321 = p_7_2n_z * model.c29;
-  const Real t330 = p_7_2n_y * t321 - (p_8_3N_x * t311 - (t247 - (Real(0.3090169943749474) * S2b_xy +
+  const Real t309 = p_8_2n_z * Real(3.571428571428571);
+  const Real t313 = p_8_3N_x * Real(3.571428571428571);
+  const Real t316 = p_8_2n_x * Real(3.571428571428571);
+  const Real t319 = p_7_2n_z * model.c29;
+  const Real t328 = p_7_2n_y * t319 - (p_8_3N_x * t309 - (t245 - (Real(0.3090169943749474) * S2b_xy +
       Real(0.9510565162951535) * S2b_xz)));
-  const Real t345 = Real(0.3090169943749474) * (S2at2r0_y - model.SR_z) + (model.r_steer_z * (h2at2_x +
-      model.c9) + (model.r_steer_x * t260 - (p_7_2n_x * t321 + (Real(0.9510565162951535) * S2at2r0_z -
-      p_8_2n_x * t311)))) + Real(25.349999999999998);
-  const Real t348 = p_7_0f_z * t321 + (q0r2_x * h2b_x - q0r2_y * h2c_x);
-  const Real t351 = p_7_0f_y * t321 - (q0r1_x * h2b_x + q0r1_y * h2c_x);
-  const Real t354 = p_7_0f_x * t321 - (q0r0_x * h2b_x - q0r0_y * h2c_x);
-  const Real t355 = p_7_2n_y * model.c29;
-  const Real t361 = p_7_2n_x * model.c29;
-  const Real t366 = p_7_0f_z * model.c29;
-  const Real t370 = p_7_0f_y * model.c29;
-  const Real t373 = p_7_0f_x * model.c29;
-  const Real t375 = Real(1.0) / (p_7_2n_z * t321 - (p_8_2n_z * t311 + (S2c_yy - S1c_xx)));
-  const Real t376 = t330 * t375;
-  const Real t389 = t345 * t376 + (p_7_2n_x * t355 - (p_8_2n_x * t315 - (t243 + (Real(0.3090169943749474) *
+  const Real t343 = Real(0.3090169943749474) * (S2at2r0_y - model.SR_z) + (model.r_steer_z * (h2at2_x +
+      model.c9) + (model.r_steer_x * t258 - (p_7_2n_x * t319 + (Real(0.9510565162951535) * S2at2r0_z -
+      p_8_2n_x * t309)))) + Real(25.349999999999998);
+  const Real t346 = p_7_0f_z * t319 + (q0r2_x * h2b_x - q0r2_y * h2c_x);
+  const Real t349 = p_7_0f_y * t319 - (q0r1_x * h2b_x + q0r1_y * h2c_x);
+  const Real t352 = p_7_0f_x * t319 - (q0r0_x * h2b_x - q0r0_y * h2c_x);
+  const Real t353 = p_7_2n_y * model.c29;
+  const Real t359 = p_7_2n_x * model.c29;
+  const Real t364 = p_7_0f_z * model.c29;
+  const Real t368 = p_7_0f_y * model.c29;
+  const Real t371 = p_7_0f_x * model.c29;
+  const Real t373 = Real(1.0) / (p_7_2n_z * t319 - (p_8_2n_z * t309 + (S2c_yy - S1c_xx)));
+  const Real t374 = t328 * t373;
+  const Real t387 = t343 * t374 + (p_7_2n_x * t353 - (p_8_2n_x * t313 - (t241 + (Real(0.3090169943749474) *
       S2b_xz - Real(0.9510565162951535) * S2b_xy))));
-  const Real t393 = t348 * t376 - (p_7_0f_z * t355 + (q0r2_x * h2c_z - q0r2_z * h2c_x));
-  const Real t397 = t351 * t376 - (p_7_0f_y * t355 - (q0r1_x * h2c_z + q0r1_z * h2c_x));
-  const Real t401 = t354 * t376 - (p_7_0f_x * t355 - (q0r0_x * h2c_z + q0r0_z * h2c_x));
-  const Real t402 = t345 * t375;
-  const Real t407 = t348 * t375;
-  const Real t411 = t351 * t375;
-  const Real t414 = t354 * t375;
-  const Real t416 = Real(1.0) / (t330 * t376 - (p_7_2n_y * t355 - (p_8_3N_x * t315 - (S1c_xx + S1c_zz))) +
+  const Real t391 = t346 * t374 - (p_7_0f_z * t353 + (q0r2_x * h2c_z - q0r2_z * h2c_x));
+  const Real t395 = t349 * t374 - (p_7_0f_y * t353 - (q0r1_x * h2c_z + q0r1_z * h2c_x));
+  const Real t399 = t352 * t374 - (p_7_0f_x * t353 - (q0r0_x * h2c_z + q0r0_z * h2c_x));
+  const Real t400 = t343 * t373;
+  const Real t405 = t346 * t373;
+  const Real t409 = t349 * t373;
+  const Real t412 = t352 * t373;
+  const Real t414 = Real(1.0) / (t328 * t374 - (p_7_2n_y * t353 - (p_8_3N_x * t313 - (S1c_xx + S1c_zz))) +
       Real(0.12));
-  const Real t417 = t389 * t416;
-  const Real t428 = t393 * t417 - (t348 * t402 + (p_7_0f_z * t361 + (q0r2_y * h2c_z - q0r2_z * h2b_x)));
-  const Real t433 = t397 * t417 - (t351 * t402 + (p_7_0f_y * t361 + (q0r1_y * h2c_z - q0r1_z * h2b_x)));
-  const Real t438 = t401 * t417 - (t354 * t402 + (p_7_0f_x * t361 - (q0r0_y * h2c_z + q0r0_z * h2b_x)));
-  const Real t439 = t393 * t416;
-  const Real t443 = t397 * t416;
-  const Real t446 = t401 * t416;
-  const Real t448 = Real(1.0) / (t389 * t417 - (t345 * t402 - (p_7_2n_x * t361 - (p_8_2n_x * t318 + (S2c_yy -
+  const Real t415 = t387 * t414;
+  const Real t426 = t391 * t415 - (t346 * t400 + (p_7_0f_z * t359 + (q0r2_y * h2c_z - q0r2_z * h2b_x)));
+  const Real t431 = t395 * t415 - (t349 * t400 + (p_7_0f_y * t359 + (q0r1_y * h2c_z - q0r1_z * h2b_x)));
+  const Real t436 = t399 * t415 - (t352 * t400 + (p_7_0f_x * t359 - (q0r0_y * h2c_z + q0r0_z * h2b_x)));
+  const Real t437 = t391 * t414;
+  const Real t441 = t395 * t414;
+  const Real t444 = t399 * t414;
+  const Real t446 = Real(1.0) / (t387 * t415 - (t343 * t400 - (p_7_2n_x * t359 - (p_8_2n_x * t316 + (S2c_yy -
       S1c_zz)))));
-  const Real t449 = t428 * t448;
-  const Real t459 = t433 * t449 - (t397 * t439 + (p_7_0f_y * t366 - t351 * t407));
-  const Real t463 = t438 * t449 - (t401 * t439 + (p_7_0f_x * t366 - t354 * t407));
-  const Real t464 = t433 * t448;
-  const Real t467 = t438 * t448;
-  const Real t469 = Real(1.0) / (t428 * t449 - (t393 * t439 + (p_7_0f_z * t366 - t348 * t407)) - Real(94.0));
-  const Real t470 = t459 * t469;
-  const Real t481 = t463 * t470 - (t438 * t464 - (t401 * t443 + (p_7_0f_x * t370 - t354 * t411)));
-  const Real t482 = t463 * t469;
-  const Real t484 = Real(1.0) / (t459 * t470 - (t433 * t464 - (t397 * t443 - (t351 * t411 - (p_7_0f_y * t370 +
+  const Real t447 = t426 * t446;
+  const Real t457 = t431 * t447 - (t395 * t437 + (p_7_0f_y * t364 - t349 * t405));
+  const Real t461 = t436 * t447 - (t399 * t437 + (p_7_0f_x * t364 - t352 * t405));
+  const Real t462 = t431 * t446;
+  const Real t465 = t436 * t446;
+  const Real t467 = Real(1.0) / (t426 * t447 - (t391 * t437 + (p_7_0f_z * t364 - t346 * t405)) - Real(94.0));
+  const Real t468 = t457 * t467;
+  const Real t479 = t461 * t468 - (t436 * t462 - (t399 * t441 + (p_7_0f_x * t368 - t352 * t409)));
+  const Real t480 = t461 * t467;
+  const Real t482 = Real(1.0) / (t457 * t468 - (t431 * t462 - (t395 * t441 - (t349 * t409 - (p_7_0f_y * t368 +
       Real(94.0))))));
-  const Real t485 = t481 * t484;
-  const Real t493 = Real(1.0) / (t481 * t485 - (t463 * t482 - (t438 * t467 - (t401 * t446 - (t354 * t414 -
-      (p_7_0f_x * t373 + Real(94.0)))))));
-  const Real t495 = model.rear_radius * q0r2_x + t84 * t376;
-  const Real t503 = t417 * t495 - (t84 * t402 - (t60 * t80 + q0r2_y * model.rear_radius));
-  const Real t510 = t449 * t503 - (t439 * t495 - (Real(1.0) + t84 * t407));
-  const Real t516 = t470 * t510 - (t464 * t503 + (t84 * t411 - t443 * t495));
-  const Real t522 = t485 * t516 - (t482 * t510 - (t467 * t503 + (t84 * t414 - t446 * t495)));
-  const Real t524 = model.rear_radius * q0r0_x + rear_contacts1bn0_z * t376;
-  const Real t533 = t417 * t524 - (rear_contacts1bn0_z * t402 - (t120 + (q0r1_x * rear_contactc_z - q0r2_x *
+  const Real t483 = t479 * t482;
+  const Real t491 = Real(1.0) / (t479 * t483 - (t461 * t480 - (t436 * t465 - (t399 * t444 - (t352 * t412 -
+      (p_7_0f_x * t371 + Real(94.0)))))));
+  const Real t493 = model.rear_radius * q0r2_x + t94 * t374;
+  const Real t501 = t415 * t493 - (t94 * t400 - (q0r2_y * model.rear_radius + t79 * t92));
+  const Real t508 = t447 * t501 - (t437 * t493 - (Real(1.0) + t94 * t405));
+  const Real t514 = t468 * t508 - (t462 * t501 + (t94 * t409 - t441 * t493));
+  const Real t520 = t483 * t514 - (t480 * t508 - (t465 * t501 + (t94 * t412 - t444 * t493)));
+  const Real t522 = model.rear_radius * q0r0_x + rear_contacts1bn0_z * t374;
+  const Real t531 = t415 * t522 - (rear_contacts1bn0_z * t400 - (t118 + (q0r1_x * rear_contactc_z - q0r2_x *
       rear_contactc_y)));
-  const Real t539 = t449 * t533 + (rear_contacts1bn0_z * t407 - t439 * t524);
-  const Real t545 = t470 * t539 - (t464 * t533 + (rear_contacts1bn0_z * t411 - t443 * t524));
-  const Real t552 = t485 * t545 - (t482 * t539 - (t467 * t533 - (t446 * t524 + (Real(1.0) -
-      rear_contacts1bn0_z * t414))));
-  const Real t554 = model.rear_radius * q0r1_x - rear_contacts2bn0_z * t376;
-  const Real t563 = t417 * t554 + (rear_contacts2bn0_z * t402 - (q0r2_x * rear_contactc_x + (t107 + q0r0_x *
+  const Real t537 = t447 * t531 + (rear_contacts1bn0_z * t405 - t437 * t522);
+  const Real t543 = t468 * t537 - (t462 * t531 + (rear_contacts1bn0_z * t409 - t441 * t522));
+  const Real t550 = t483 * t543 - (t480 * t537 - (t465 * t531 - (t444 * t522 + (Real(1.0) -
+      rear_contacts1bn0_z * t412))));
+  const Real t552 = model.rear_radius * q0r1_x - rear_contacts2bn0_z * t374;
+  const Real t561 = t415 * t552 + (rear_contacts2bn0_z * t400 - (q0r2_x * rear_contactc_x + (t105 + q0r0_x *
       rear_contactc_z)));
-  const Real t569 = t449 * t563 - (rear_contacts2bn0_z * t407 + t439 * t554);
-  const Real t576 = t470 * t569 - (t464 * t563 - (t443 * t554 + (Real(1.0) + rear_contacts2bn0_z * t411)));
-  const Real t582 = t485 * t576 - (t482 * t569 - (t467 * t563 - (rear_contacts2bn0_z * t414 + t446 * t554)));
-  const Real t585 = t93 * t321 + (q0r2_x * t82 - q0r2_y * t87);
-  const Real t594 = t376 * t585 - (t93 * t355 - (t80 * t87 - q0r2_x * t90));
-  const Real t603 = t417 * t594 - (t402 * t585 + (t93 * t361 - (t80 * t82 - q0r2_y * t90)));
-  const Real t611 = t449 * t603 - (t439 * t594 - (t407 * t585 - (Real(1.0) + t93 * t366)));
-  const Real t618 = t470 * t611 - (t464 * t603 - (t443 * t594 + (t93 * t370 - t411 * t585)));
-  const Real t625 = t485 * t618 - (t482 * t611 - (t467 * t603 - (t446 * t594 + (t93 * t373 - t414 * t585))));
-  const Real t633 = front_contacts1bm_z * t321 + (front_contacts1bn3p_x * t311 + (front_contactbx2p_x * q0r0_y
+  const Real t567 = t447 * t561 - (rear_contacts2bn0_z * t405 + t437 * t552);
+  const Real t574 = t468 * t567 - (t462 * t561 - (t441 * t552 + (Real(1.0) + rear_contacts2bn0_z * t409)));
+  const Real t580 = t483 * t574 - (t480 * t567 - (t465 * t561 - (rear_contacts2bn0_z * t412 + t444 * t552)));
+  const Real t583 = t89 * t319 - (q0r2_y * t73 - q0r2_x * t87);
+  const Real t592 = t374 * t583 - (t89 * t353 - (t73 * t79 - q0r2_x * t71));
+  const Real t601 = t415 * t592 - (t400 * t583 + (t89 * t359 + (q0r2_y * t71 - t79 * t87)));
+  const Real t609 = t447 * t601 - (t437 * t592 - (t405 * t583 - (Real(1.0) + t89 * t364)));
+  const Real t616 = t468 * t609 - (t462 * t601 - (t441 * t592 + (t89 * t368 - t409 * t583)));
+  const Real t623 = t483 * t616 - (t480 * t609 - (t465 * t601 - (t444 * t592 + (t89 * t371 - t412 * t583))));
+  const Real t631 = front_contacts1bm_z * t319 + (front_contacts1bn3p_x * t309 + (front_contactbx2p_x * q0r0_y
       + (front_contacts1bn0_z - front_contactbx3_x * q0r0_x)));
-  const Real t644 = t376 * t633 - (front_contacts1bm_z * t355 + (front_contacts1bn3p_x * t315 -
+  const Real t642 = t374 * t631 - (front_contacts1bm_z * t353 + (front_contacts1bn3p_x * t313 -
       (front_contactbx2p_x * q0r0_z + (front_contacts1bn0_y + front_contactbx2p_z * q0r0_x))));
-  const Real t655 = t417 * t644 - (t402 * t633 + (front_contacts1bm_z * t361 + (front_contacts1bn3p_x * t318 -
+  const Real t653 = t415 * t642 - (t400 * t631 + (front_contacts1bm_z * t359 + (front_contacts1bn3p_x * t316 -
       (front_contactbx3_x * q0r0_z + (front_contacts1bn0_x + front_contactbx2p_z * q0r0_y)))));
-  const Real t662 = t449 * t655 - (t439 * t644 + (front_contacts1bm_z * t366 - t407 * t633));
-  const Real t669 = t470 * t662 - (t464 * t655 - (t443 * t644 + (front_contacts1bm_z * t370 - t411 * t633)));
-  const Real t677 = t485 * t669 - (t482 * t662 - (t467 * t655 - (t446 * t644 - (t414 * t633 - (Real(1.0) +
-      front_contacts1bm_z * t373)))));
-  const Real t685 = front_contacts2bm_z * t321 + (front_contacts2bn3p_x * t311 - (front_contactbx2p_x * q0r1_y
+  const Real t660 = t447 * t653 - (t437 * t642 + (front_contacts1bm_z * t364 - t405 * t631));
+  const Real t667 = t468 * t660 - (t462 * t653 - (t441 * t642 + (front_contacts1bm_z * t368 - t409 * t631)));
+  const Real t675 = t483 * t667 - (t480 * t660 - (t465 * t653 - (t444 * t642 - (t412 * t631 - (Real(1.0) +
+      front_contacts1bm_z * t371)))));
+  const Real t683 = front_contacts2bm_z * t319 + (front_contacts2bn3p_x * t309 - (front_contactbx2p_x * q0r1_y
       + (front_contacts2bn0_z + front_contactbx3_x * q0r1_x)));
-  const Real t696 = t376 * t685 - (front_contacts2bm_z * t355 + (front_contacts2bn3p_x * t315 -
+  const Real t694 = t374 * t683 - (front_contacts2bm_z * t353 + (front_contacts2bn3p_x * t313 -
       (front_contactbx2p_x * q0r1_z + (front_contacts2bn0_y + front_contactbx2p_z * q0r1_x))));
-  const Real t707 = t417 * t696 - (t402 * t685 + (front_contacts2bm_z * t361 + (front_contacts2bn3p_x * t318 -
+  const Real t705 = t415 * t694 - (t400 * t683 + (front_contacts2bm_z * t359 + (front_contacts2bn3p_x * t316 -
       (front_contactbx3_x * q0r1_z - (front_contacts2bn0_x + front_contactbx2p_z * q0r1_y)))));
-  const Real t714 = t449 * t707 - (t439 * t696 + (front_contacts2bm_z * t366 - t407 * t685));
-  const Real t722 = t470 * t714 - (t464 * t707 - (t443 * t696 - (t411 * t685 - (Real(1.0) +
-      front_contacts2bm_z * t370))));
-  const Real t729 = t485 * t722 - (t482 * t714 - (t467 * t707 - (t446 * t696 + (front_contacts2bm_z * t373 -
-      t414 * t685))));
-  const Real t742 = t493 * t552;
-  const Real t743 = t484 * t545;
-  const Real t744 = t469 * t539;
-  const Real t745 = t448 * t533;
-  const Real t746 = t416 * t524;
-  const Real t747 = rear_contacts1bn0_z * t375;
-  const Real t758 = t84 * t747 - (t495 * t746 - (t503 * t745 - (t510 * t744 + (t522 * t742 - t516 * t743))));
-  const Real t768 = t493 * t582;
-  const Real t769 = t484 * t576;
-  const Real t770 = t469 * t569;
-  const Real t771 = t448 * t563;
-  const Real t772 = t416 * t554;
-  const Real t773 = rear_contacts2bn0_z * t375;
-  const Real t774 = rear_contacts2bn0_y * Real(8.333333333333334);
-  const Real t785 = t84 * t773 + (t495 * t772 - (t503 * t771 - (t510 * t770 + (t522 * t768 - t516 * t769))));
-  const Real t800 = t493 * t625;
-  const Real t801 = t484 * t618;
-  const Real t802 = t469 * t611;
-  const Real t803 = t448 * t603;
-  const Real t804 = t416 * t594;
-  const Real t805 = t375 * t585;
-  const Real t816 = t84 * t805 - (t495 * t804 - (t503 * t803 - (t510 * t802 + (t522 * t800 - t516 * t801))));
-  const Real t837 = t493 * t677;
-  const Real t838 = t484 * t669;
-  const Real t839 = t469 * t662;
-  const Real t840 = t448 * t655;
-  const Real t841 = t416 * t644;
-  const Real t842 = t375 * t633;
-  const Real t843 = front_contacts1bm_z * model.c29;
-  const Real t854 = t84 * t842 - (t495 * t841 - (t503 * t840 - (t510 * t839 + (t522 * t837 - t516 * t838))));
-  const Real t883 = t493 * t729;
-  const Real t884 = t484 * t722;
-  const Real t885 = t469 * t714;
-  const Real t886 = t448 * t707;
-  const Real t887 = t416 * t696;
-  const Real t888 = t375 * t685;
-  const Real t889 = front_contacts2bm_z * model.c29;
-  const Real t890 = front_contacts2bn3p_x * Real(3.571428571428571);
-  const Real t901 = t84 * t888 - (t495 * t887 - (t503 * t886 - (t510 * t885 + (t522 * t883 - t516 * t884))));
-  const Real t944 = Real(1.0) / (t84 * (t84 * t375) - (t495 * (t416 * t495) - (t503 * (t448 * t503) - (t510 *
-      (t469 * t510) + (t522 * (t493 * t522) - t516 * (t484 * t516))))) + Real(1.8087085566416913e-12));
-  const Real t945 = t758 * t944;
-  const Real t956 = t785 * t944;
-  const Real t964 = t758 * t956 + (rear_contacts1bn0_y * t774 - (rear_contacts1bn0_z * t773 + (t524 * t772 -
-      (t533 * t771 - (t539 * t770 + (t552 * t768 - t545 * t769))))));
-  const Real t966 = t816 * t944;
-  const Real t973 = t758 * t966 - (rear_contacts1bn0_z * t805 - (t524 * t804 - (t533 * t803 - (t539 * t802 +
-      (t552 * t800 - t545 * t801)))));
-  const Real t976 = t854 * t944;
-  const Real t983 = t758 * t976 - (rear_contacts1bn0_z * t842 - (t524 * t841 - (t533 * t840 - (t539 * t839 +
-      (t552 * t837 - t545 * t838)))));
-  const Real t987 = t901 * t944;
-  const Real t994 = t758 * t987 - (rear_contacts1bn0_z * t888 - (t524 * t887 - (t533 * t886 - (t539 * t885 +
-      (t552 * t883 - t545 * t884)))));
-  const Real t999 = Real(1.0) / (t758 * t945 - (rear_contacts1bn0_y * rear_contacts1bn0_y *
-      Real(8.333333333333334) + (rear_contacts1bn0_z * t747 - (t524 * t746 - (t533 * t745 - (t539 * t744 +
-      (t552 * t742 - t545 * t743)))))) - Real(7.806783314072456e-11));
-  const Real t1000 = t964 * t999;
-  const Real t1012 = t973 * t999;
-  const Real t1020 = t964 * t1012 - (t785 * t966 - (rear_contacts2bn0_z * t805 + (t554 * t804 - (t563 * t803 -
-      (t569 * t802 + (t582 * t800 - t576 * t801))))));
-  const Real t1022 = t983 * t999;
-  const Real t1030 = t964 * t1022 - (t785 * t976 - (rear_contacts2bn0_z * t842 + (t554 * t841 - (t563 * t840 -
-      (t569 * t839 + (t582 * t837 - t576 * t838))))));
-  const Real t1033 = t994 * t999;
-  const Real t1041 = t964 * t1033 - (t785 * t987 - (rear_contacts2bn0_z * t888 + (t554 * t887 - (t563 * t886 -
-      (t569 * t885 + (t582 * t883 - t576 * t884))))));
-  const Real t1045 = Real(1.0) / (t964 * t1000 - (t785 * t956 - (rear_contacts2bn0_y * t774 +
-      (rear_contacts2bn0_z * t773 - (t554 * t772 - (t563 * t771 - (t569 * t770 + (t582 * t768 - t576 *
-      t769))))))) + Real(8.816994788327498e-12));
-  const Real t1046 = t1020 * t1045;
-  const Real t1059 = t1030 * t1045;
-  const Real t1069 = t1020 * t1059 - (t973 * t1022 - (t816 * t976 + (t93 * t843 - (t585 * t842 - (t594 * t841
-      - (t603 * t840 - (t611 * t839 + (t625 * t837 - t618 * t838))))))));
-  const Real t1071 = t1041 * t1045;
-  const Real t1081 = t1020 * t1071 - (t973 * t1033 - (t816 * t987 + (t93 * t889 - (t585 * t888 - (t594 * t887
-      - (t603 * t886 - (t611 * t885 + (t625 * t883 - t618 * t884))))))));
-  const Real t1084 = Real(1.0) / (t1020 * t1046 - (t973 * t1012 - (t816 * t966 + (model.c29 * (t93 * t93) -
-      (t585 * t805 - (t594 * t804 - (t603 * t803 - (t611 * t802 + (t625 * t800 - t618 * t801)))))))) -
+  const Real t712 = t447 * t705 - (t437 * t694 + (front_contacts2bm_z * t364 - t405 * t683));
+  const Real t720 = t468 * t712 - (t462 * t705 - (t441 * t694 - (t409 * t683 - (Real(1.0) +
+      front_contacts2bm_z * t368))));
+  const Real t727 = t483 * t720 - (t480 * t712 - (t465 * t705 - (t444 * t694 + (front_contacts2bm_z * t371 -
+      t412 * t683))));
+  const Real t740 = t491 * t550;
+  const Real t741 = t482 * t543;
+  const Real t742 = t467 * t537;
+  const Real t743 = t446 * t531;
+  const Real t744 = t414 * t522;
+  const Real t745 = rear_contacts1bn0_z * t373;
+  const Real t756 = t94 * t745 - (t493 * t744 - (t501 * t743 - (t508 * t742 + (t520 * t740 - t514 * t741))));
+  const Real t766 = t491 * t580;
+  const Real t767 = t482 * t574;
+  const Real t768 = t467 * t567;
+  const Real t769 = t446 * t561;
+  const Real t770 = t414 * t552;
+  const Real t771 = rear_contacts2bn0_z * t373;
+  const Real t772 = rear_contacts2bn0_y * Real(8.333333333333334);
+  const Real t783 = t94 * t771 + (t493 * t770 - (t501 * t769 - (t508 * t768 + (t520 * t766 - t514 * t767))));
+  const Real t798 = t491 * t623;
+  const Real t799 = t482 * t616;
+  const Real t800 = t467 * t609;
+  const Real t801 = t446 * t601;
+  const Real t802 = t414 * t592;
+  const Real t803 = t373 * t583;
+  const Real t814 = t94 * t803 - (t493 * t802 - (t501 * t801 - (t508 * t800 + (t520 * t798 - t514 * t799))));
+  const Real t835 = t491 * t675;
+  const Real t836 = t482 * t667;
+  const Real t837 = t467 * t660;
+  const Real t838 = t446 * t653;
+  const Real t839 = t414 * t642;
+  const Real t840 = t373 * t631;
+  const Real t841 = front_contacts1bm_z * model.c29;
+  const Real t852 = t94 * t840 - (t493 * t839 - (t501 * t838 - (t508 * t837 + (t520 * t835 - t514 * t836))));
+  const Real t881 = t491 * t727;
+  const Real t882 = t482 * t720;
+  const Real t883 = t467 * t712;
+  const Real t884 = t446 * t705;
+  const Real t885 = t414 * t694;
+  const Real t886 = t373 * t683;
+  const Real t887 = front_contacts2bm_z * model.c29;
+  const Real t888 = front_contacts2bn3p_x * Real(3.571428571428571);
+  const Real t899 = t94 * t886 - (t493 * t885 - (t501 * t884 - (t508 * t883 + (t520 * t881 - t514 * t882))));
+  const Real t942 = Real(1.0) / (t94 * (t94 * t373) - (t493 * (t414 * t493) - (t501 * (t446 * t501) - (t508 *
+      (t467 * t508) + (t520 * (t491 * t520) - t514 * (t482 * t514))))) + Real(1.8087085566416913e-12));
+  const Real t943 = t756 * t942;
+  const Real t954 = t783 * t942;
+  const Real t962 = t756 * t954 + (rear_contacts1bn0_y * t772 - (rear_contacts1bn0_z * t771 + (t522 * t770 -
+      (t531 * t769 - (t537 * t768 + (t550 * t766 - t543 * t767))))));
+  const Real t964 = t814 * t942;
+  const Real t971 = t756 * t964 - (rear_contacts1bn0_z * t803 - (t522 * t802 - (t531 * t801 - (t537 * t800 +
+      (t550 * t798 - t543 * t799)))));
+  const Real t974 = t852 * t942;
+  const Real t981 = t756 * t974 - (rear_contacts1bn0_z * t840 - (t522 * t839 - (t531 * t838 - (t537 * t837 +
+      (t550 * t835 - t543 * t836)))));
+  const Real t985 = t899 * t942;
+  const Real t992 = t756 * t985 - (rear_contacts1bn0_z * t886 - (t522 * t885 - (t531 * t884 - (t537 * t883 +
+      (t550 * t881 - t543 * t882)))));
+  const Real t997 = Real(1.0) / (t756 * t943 - (rear_contacts1bn0_y * rear_contacts1bn0_y *
+      Real(8.333333333333334) + (rear_contacts1bn0_z * t745 - (t522 * t744 - (t531 * t743 - (t537 * t742 +
+      (t550 * t740 - t543 * t741)))))) - Real(7.806783314072456e-11));
+  const Real t998 = t962 * t997;
+  const Real t1010 = t971 * t997;
+  const Real t1018 = t962 * t1010 - (t783 * t964 - (rear_contacts2bn0_z * t803 + (t552 * t802 - (t561 * t801 -
+      (t567 * t800 + (t580 * t798 - t574 * t799))))));
+  const Real t1020 = t981 * t997;
+  const Real t1028 = t962 * t1020 - (t783 * t974 - (rear_contacts2bn0_z * t840 + (t552 * t839 - (t561 * t838 -
+      (t567 * t837 + (t580 * t835 - t574 * t836))))));
+  const Real t1031 = t992 * t997;
+  const Real t1039 = t962 * t1031 - (t783 * t985 - (rear_contacts2bn0_z * t886 + (t552 * t885 - (t561 * t884 -
+      (t567 * t883 + (t580 * t881 - t574 * t882))))));
+  const Real t1043 = Real(1.0) / (t962 * t998 - (t783 * t954 - (rear_contacts2bn0_y * t772 +
+      (rear_contacts2bn0_z * t771 - (t552 * t770 - (t561 * t769 - (t567 * t768 + (t580 * t766 - t574 *
+      t767))))))) + Real(8.816994788327498e-12));
+  const Real t1044 = t1018 * t1043;
+  const Real t1057 = t1028 * t1043;
+  const Real t1067 = t1018 * t1057 - (t971 * t1020 - (t814 * t974 + (t89 * t841 - (t583 * t840 - (t592 * t839
+      - (t601 * t838 - (t609 * t837 + (t623 * t835 - t616 * t836))))))));
+  const Real t1069 = t1039 * t1043;
+  const Real t1079 = t1018 * t1069 - (t971 * t1031 - (t814 * t985 + (t89 * t887 - (t583 * t886 - (t592 * t885
+      - (t601 * t884 - (t609 * t883 + (t623 * t881 - t616 * t882))))))));
+  const Real t1082 = Real(1.0) / (t1018 * t1044 - (t971 * t1010 - (t814 * t964 + (model.c29 * (t89 * t89) -
+      (t583 * t803 - (t592 * t802 - (t601 * t801 - (t609 * t800 + (t623 * t798 - t616 * t799)))))))) -
       Real(3.988016169236579e-12));
-  const Real t1085 = t1069 * t1084;
-  const Real t1100 = t1081 * t1084;
-  const Real t1112 = t1069 * t1100 - (t1030 * t1071 - (t983 * t1033 - (t854 * t987 - (front_contacts1bn3p_x *
-      t890 - (front_contacts1bm_z * t889 - (t633 * t888 - (t644 * t887 - (t655 * t886 - (t662 * t885 + (t677 *
-      t883 - t669 * t884))))))))));
-  const Real t1114 = Real(1.0) / (t1069 * t1085 - (t1030 * t1059 - (t983 * t1022 - (t854 * t976 -
-      (Real(3.571428571428571) * (front_contacts1bn3p_x * front_contacts1bn3p_x) - (front_contacts1bm_z * t843
-      - (t633 * t842 - (t644 * t841 - (t655 * t840 - (t662 * t839 + (t677 * t837 - t669 * t838)))))))))) +
+  const Real t1083 = t1067 * t1082;
+  const Real t1098 = t1079 * t1082;
+  const Real t1110 = t1067 * t1098 - (t1028 * t1069 - (t981 * t1031 - (t852 * t985 - (front_contacts1bn3p_x *
+      t888 - (front_contacts1bm_z * t887 - (t631 * t886 - (t642 * t885 - (t653 * t884 - (t660 * t883 + (t675 *
+      t881 - t667 * t882))))))))));
+  const Real t1112 = Real(1.0) / (t1067 * t1083 - (t1028 * t1057 - (t981 * t1020 - (t852 * t974 -
+      (Real(3.571428571428571) * (front_contacts1bn3p_x * front_contacts1bn3p_x) - (front_contacts1bm_z * t841
+      - (t631 * t840 - (t642 * t839 - (t653 * t838 - (t660 * t837 + (t675 * t835 - t667 * t836)))))))))) +
       Real(4.6476630875276904e-11));
-  const Real t1115 = t1112 * t1114;
-  const Real t1131 = Real(1.0) / (t1112 * t1115 - (t1081 * t1100 - (t1041 * t1071 - (t994 * t1033 - (t901 *
-      t987 - (front_contacts2bn3p_x * t890 - (front_contacts2bm_z * t889 - (t685 * t888 - (t696 * t887 - (t707
-      * t886 - (t714 * t885 + (t729 * t883 - t722 * t884))))))))))) - Real(2.7054786900152528e-11));
-  const Real t1132 = g_rear_contact * t945;
-  const Real t1138 = g_rear_contact * t956 - t1000 * t1132;
-  const Real t1149 = t1046 * t1138 + (t1012 * t1132 - (g_rear_contact * t966 + (front_contactup *
+  const Real t1113 = t1110 * t1112;
+  const Real t1129 = Real(1.0) / (t1110 * t1113 - (t1079 * t1098 - (t1039 * t1069 - (t992 * t1031 - (t899 *
+      t985 - (front_contacts2bn3p_x * t888 - (front_contacts2bm_z * t887 - (t683 * t886 - (t694 * t885 - (t705
+      * t884 - (t712 * t883 + (t727 * t881 - t720 * t882))))))))))) - Real(2.7054786900152528e-11));
+  const Real t1130 = g_rear_contact * t943;
+  const Real t1136 = g_rear_contact * t954 - t998 * t1130;
+  const Real t1147 = t1044 * t1136 + (t1010 * t1130 - (g_rear_contact * t964 + (front_contactup *
       model.front_radius + (q0r2_z * front_contactbx2p_z + (q0r2_y * front_contactbx3_x + (state.y[2] + q0r2_x
       * front_contactbx2p_x))))));
-  const Real t1155 = t1085 * t1149 - (t1059 * t1138 - (g_rear_contact * t976 - t1022 * t1132));
-  const Real t1167 = t1131 * (t1115 * t1155 - (t1100 * t1149 - (t1071 * t1138 - (g_rear_contact * t987 - t1033
-      * t1132))));
-  const Real t1169 = t1114 * t1155 - t1115 * t1167;
-  const Real t1173 = t1100 * t1167 - (t1084 * t1149 - t1085 * t1169);
-  const Real t1179 = t1071 * t1167 + (t1059 * t1169 - (t1045 * t1138 + t1046 * t1173));
-  const Real t1187 = t1033 * t1167 + (t1022 * t1169 - (t1012 * t1173 - (t999 * t1132 - t1000 * t1179)));
-  const Real t1197 = t987 * t1167 + (t976 * t1169 - (t966 * t1173 + (t956 * t1179 - (g_rear_contact * t944 -
-      t945 * t1187))));
-  const Real t1275 = t493 * (t729 * t1167 + (t677 * t1169 - (t625 * t1173 - (t582 * t1179 - (t522 * t1197 +
-      t552 * t1187)))));
-  const Real t1278 = t484 * (t722 * t1167 + (t669 * t1169 - (t618 * t1173 - (t576 * t1179 - (t516 * t1197 +
-      t545 * t1187))))) - t485 * t1275;
-  const Real t1283 = t470 * t1278 - (t469 * (t714 * t1167 + (t662 * t1169 - (t611 * t1173 - (t569 * t1179 -
-      (t510 * t1197 + t539 * t1187))))) - t482 * t1275);
-  const Real t1290 = t449 * t1283 - (t464 * t1278 - (t448 * (t707 * t1167 + (t655 * t1169 - (t603 * t1173 -
-      (t563 * t1179 - (t503 * t1197 + t533 * t1187))))) - t467 * t1275));
-  const Real t1299 = t417 * t1290 - (t439 * t1283 - (t443 * t1278 - (t416 * (t696 * t1167 + (t644 * t1169 -
-      (t594 * t1173 - (t554 * t1179 - (t495 * t1197 + t524 * t1187))))) - t446 * t1275)));
-  const Real t1310 = t376 * t1299 - (t402 * t1290 - (t407 * t1283 - (t411 * t1278 - (t375 * (t685 * t1167 +
-      (t633 * t1169 - (t585 * t1173 + (rear_contacts2bn0_z * t1179 + (t84 * t1197 + rear_contacts1bn0_z *
-      t1187))))) - t414 * t1275))));
-  const Real t1312 = t1299 + Real(8.333333333333334) * (rear_contacts1bn0_y * t1187 - rear_contacts2bn0_y *
-      t1179);
-  const Real t1313 = model.c29 * (front_contacts2bm_z * t1167 - (t93 * t1173 - front_contacts1bm_z * t1169));
-  const Real t1314 = t373 * t1275;
-  const Real t1315 = t370 * t1278;
-  const Real t1316 = t366 * t1283;
-  const Real t1317 = t361 * t1290;
-  const Real t1318 = t355 * t1299;
-  const Real t1319 = t321 * t1310;
-  const Real t1325 = t1319 - (t1318 + (t1317 + (t1316 - (t1315 - (t1313 - t1314)))));
-  const Real t1332 = t311 * t1310 - (t315 * t1299 - (Real(3.571428571428571) * (front_contacts1bn3p_x * t1169
-      + front_contacts2bn3p_x * t1167) - t318 * t1290));
-  const Real t1343 = Real(0.5) * t1290;
-  const Real t1344 = Real(0.5) * t1299;
-  const Real t1345 = Real(0.5) * t1310;
-  const Real t1352 = state.y[6] * t1344 + (state.y[5] * t1345 + (state.y[4] + state.y[3] * t1343));
-  const Real t1359 = state.y[4] * t1345 - (state.y[6] * t1343 + (state.y[5] - state.y[3] * t1344));
-  const Real t1363 = state.y[6] * t1345 - (state.y[5] * t1344 + (state.y[3] - state.y[4] * t1343));
-  const Real t1369 = state.y[5] * t1343 + (state.y[4] * t1344 - (state.y[6] + state.y[3] * t1345));
-  const Real t1378 = Real(1.0) / detail::square_root(t1369 * t1369 + (t1359 * t1359 + (t1363 * t1363 + t1352 *
-      t1352)));
-  const Real t1379 = t1363 * t1378;
-  const Real t1380 = t1352 * t1378;
-  const Real t1381 = t1359 * t1378;
-  const Real t1382 = t1369 * t1378;
-  const Real q0d1_2 = Real(2.0) * t1380;
-  const Real q0d2_2 = Real(2.0) * t1381;
-  const Real q0d3_2 = Real(2.0) * t1382;
-  const Real q011_2 = t1380 * q0d1_2;
-  const Real q022_2 = t1381 * q0d2_2;
-  const Real q023_2 = t1381 * q0d3_2;
-  const Real q001_2 = t1379 * q0d1_2;
+  const Real t1153 = t1083 * t1147 - (t1057 * t1136 - (g_rear_contact * t974 - t1020 * t1130));
+  const Real t1165 = t1129 * (t1113 * t1153 - (t1098 * t1147 - (t1069 * t1136 - (g_rear_contact * t985 - t1031
+      * t1130))));
+  const Real t1167 = t1112 * t1153 - t1113 * t1165;
+  const Real t1171 = t1098 * t1165 - (t1082 * t1147 - t1083 * t1167);
+  const Real t1177 = t1069 * t1165 + (t1057 * t1167 - (t1043 * t1136 + t1044 * t1171));
+  const Real t1185 = t1031 * t1165 + (t1020 * t1167 - (t1010 * t1171 - (t997 * t1130 - t998 * t1177)));
+  const Real t1195 = t985 * t1165 + (t974 * t1167 - (t964 * t1171 + (t954 * t1177 - (g_rear_contact * t942 -
+      t943 * t1185))));
+  const Real t1273 = t491 * (t727 * t1165 + (t675 * t1167 - (t623 * t1171 - (t580 * t1177 - (t520 * t1195 +
+      t550 * t1185)))));
+  const Real t1276 = t482 * (t720 * t1165 + (t667 * t1167 - (t616 * t1171 - (t574 * t1177 - (t514 * t1195 +
+      t543 * t1185))))) - t483 * t1273;
+  const Real t1281 = t468 * t1276 - (t467 * (t712 * t1165 + (t660 * t1167 - (t609 * t1171 - (t567 * t1177 -
+      (t508 * t1195 + t537 * t1185))))) - t480 * t1273);
+  const Real t1288 = t447 * t1281 - (t462 * t1276 - (t446 * (t705 * t1165 + (t653 * t1167 - (t601 * t1171 -
+      (t561 * t1177 - (t501 * t1195 + t531 * t1185))))) - t465 * t1273));
+  const Real t1297 = t415 * t1288 - (t437 * t1281 - (t441 * t1276 - (t414 * (t694 * t1165 + (t642 * t1167 -
+      (t592 * t1171 - (t552 * t1177 - (t493 * t1195 + t522 * t1185))))) - t444 * t1273)));
+  const Real t1308 = t374 * t1297 - (t400 * t1288 - (t405 * t1281 - (t409 * t1276 - (t373 * (t683 * t1165 +
+      (t631 * t1167 - (t583 * t1171 + (rear_contacts2bn0_z * t1177 + (t94 * t1195 + rear_contacts1bn0_z *
+      t1185))))) - t412 * t1273))));
+  const Real t1310 = t1297 + Real(8.333333333333334) * (rear_contacts1bn0_y * t1185 - rear_contacts2bn0_y *
+      t1177);
+  const Real t1311 = model.c29 * (front_contacts2bm_z * t1165 - (t89 * t1171 - front_contacts1bm_z * t1167));
+  const Real t1312 = t371 * t1273;
+  const Real t1313 = t368 * t1276;
+  const Real t1314 = t364 * t1281;
+  const Real t1315 = t359 * t1288;
+  const Real t1316 = t353 * t1297;
+  const Real t1317 = t319 * t1308;
+  const Real t1323 = t1317 - (t1316 + (t1315 + (t1314 - (t1313 - (t1311 - t1312)))));
+  const Real t1330 = t309 * t1308 - (t313 * t1297 - (Real(3.571428571428571) * (front_contacts1bn3p_x * t1167
+      + front_contacts2bn3p_x * t1165) - t316 * t1288));
+  const Real t1341 = Real(0.5) * t1288;
+  const Real t1342 = Real(0.5) * t1297;
+  const Real t1343 = Real(0.5) * t1308;
+  const Real t1350 = state.y[6] * t1342 + (state.y[5] * t1343 + (state.y[4] + state.y[3] * t1341));
+  const Real t1357 = state.y[4] * t1343 - (state.y[6] * t1341 + (state.y[5] - state.y[3] * t1342));
+  const Real t1361 = state.y[6] * t1343 - (state.y[5] * t1342 + (state.y[3] - state.y[4] * t1341));
+  const Real t1367 = state.y[5] * t1341 + (state.y[4] * t1342 - (state.y[6] + state.y[3] * t1343));
+  const Real t1376 = Real(1.0) / detail::square_root(t1367 * t1367 + (t1357 * t1357 + (t1361 * t1361 + t1350 *
+      t1350)));
+  const Real t1377 = t1361 * t1376;
+  const Real t1378 = t1350 * t1376;
+  const Real t1379 = t1357 * t1376;
+  const Real t1380 = t1367 * t1376;
+  const Real q0d1_2 = Real(2.0) * t1378;
+  const Real q0d2_2 = Real(2.0) * t1379;
+  const Real q0d3_2 = Real(2.0) * t1380;
+  const Real q011_2 = t1378 * q0d1_2;
+  const Real q022_2 = t1379 * q0d2_2;
+  const Real q023_2 = t1379 * q0d3_2;
+  const Real q001_2 = t1377 * q0d1_2;
   const Real q0r2_y_2 = q023_2 - q001_2;
-  const Real t1391 = Real(1.0) - q011_2;
-  const Real q0r2_z_2 = q022_2 - t1391;
-  const Real t1394 = Real(1.0) - q0r2_y_2 * q0r2_y_2;
-  const Real rear_contactup_2 = detail::square_root(t1394);
-  const Real q013_2 = t1380 * q0d3_2;
-  const Real q002_2 = t1379 * q0d2_2;
+  const Real t1389 = Real(1.0) - q011_2;
+  const Real q0r2_z_2 = q022_2 - t1389;
+  const Real t1392 = Real(1.0) - q0r2_y_2 * q0r2_y_2;
+  const Real rear_contactup_2 = detail::square_root(t1392);
+  const Real q013_2 = t1378 * q0d3_2;
+  const Real q002_2 = t1377 * q0d2_2;
   const Real q0r2_x_2 = q013_2 + q002_2;
+  Real t1397, t1398;
+  detail::sine_cosine(t1311, t1397, t1398);
   Real t1399, t1400;
-  detail::sine_cosine(t1313, t1399, t1400);
-  Real t1401, t1402;
-  detail::sine_cosine(t1314, t1401, t1402);
-  const Real t1405 = t1400 * t1401 - t1399 * t1402;
-  const Real t1408 = t1399 * t1401 + t1400 * t1402;
-  Real t1409, t1410;
-  detail::sine_cosine(t1315, t1409, t1410);
-  const Real t1413 = t1408 * t1409 + t1405 * t1410;
-  const Real t1416 = t1405 * t1409 - t1408 * t1410;
-  Real t1417, t1418;
-  detail::sine_cosine(t1316, t1417, t1418);
-  const Real t1421 = t1416 * t1417 + t1413 * t1418;
-  const Real t1424 = t1413 * t1417 - t1416 * t1418;
-  Real t1425, t1426;
-  detail::sine_cosine(t1317, t1425, t1426);
-  const Real t1429 = t1424 * t1425 - t1421 * t1426;
-  const Real t1432 = t1421 * t1425 + t1424 * t1426;
-  Real t1433, t1434;
-  detail::sine_cosine(t1318, t1433, t1434);
-  const Real t1437 = t1432 * t1433 + t1429 * t1434;
-  const Real t1440 = t1429 * t1433 - t1432 * t1434;
-  Real t1441, t1442;
-  detail::sine_cosine(t1319, t1441, t1442);
-  const Real t1445 = t1440 * t1441 + t1437 * t1442;
-  const Real t1448 = t1437 * t1441 - t1440 * t1442;
-  const Real s2_2 = c2 * t1445 - s2 * t1448;
-  const Real c2_2 = s2 * t1445 + c2 * t1448;
+  detail::sine_cosine(t1312, t1399, t1400);
+  const Real t1403 = t1398 * t1399 - t1397 * t1400;
+  const Real t1406 = t1397 * t1399 + t1398 * t1400;
+  Real t1407, t1408;
+  detail::sine_cosine(t1313, t1407, t1408);
+  const Real t1411 = t1406 * t1407 + t1403 * t1408;
+  const Real t1414 = t1403 * t1407 - t1406 * t1408;
+  Real t1415, t1416;
+  detail::sine_cosine(t1314, t1415, t1416);
+  const Real t1419 = t1414 * t1415 + t1411 * t1416;
+  const Real t1422 = t1411 * t1415 - t1414 * t1416;
+  Real t1423, t1424;
+  detail::sine_cosine(t1315, t1423, t1424);
+  const Real t1427 = t1422 * t1423 - t1419 * t1424;
+  const Real t1430 = t1419 * t1423 + t1422 * t1424;
+  Real t1431, t1432;
+  detail::sine_cosine(t1316, t1431, t1432);
+  const Real t1435 = t1430 * t1431 + t1427 * t1432;
+  const Real t1438 = t1427 * t1431 - t1430 * t1432;
+  Real t1439, t1440;
+  detail::sine_cosine(t1317, t1439, t1440);
+  const Real t1443 = t1438 * t1439 + t1435 * t1440;
+  const Real t1446 = t1435 * t1439 - t1438 * t1440;
+  const Real s2_2 = c2 * t1443 - s2 * t1446;
+  const Real c2_2 = s2 * t1443 + c2 * t1446;
   const Real front_contactbx3_x_2 = model.r_front_y * s2_2;
   const Real front_contactbx3_y_2 = model.r_front_y * c2_2;
   const Real front_contactbx2p_x_2 = model.c25 + Real(0.9510565162951535) * front_contactbx3_y_2;
@@ -1822,42 +1820,41 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real front_contactbd2p_z_2 = Real(0.3090169943749474) * s2_2;
   const Real front_contactbd0p_z_2 = q0r2_z_2 * front_contactbd2p_z_2 - (q0r2_x_2 * front_contactbd2p_x_2 -
       q0r2_y_2 * c2_2);
-  const Real t1469 = Real(1.0) - front_contactbd0p_z_2 * front_contactbd0p_z_2;
-  const Real front_contactup_2 = detail::square_root(t1469);
-  const Real t1474 = model.c30 * ((q0r2_y_2 + q0r2_y_2) / rear_contactup_2);
-  const Real t1482 = Real(0.9510565162951535) * q0r2_x_2 - Real(0.3090169943749474) * q0r2_z_2;
-  const Real t1486 = model.c31 * ((front_contactbd0p_z_2 + front_contactbd0p_z_2) / front_contactup_2);
-  const Real t1493 = t1381 * t1381 - (t1382 * t1382 + (t1379 * t1379 - t1380 * t1380));
-  const Real t1495 = front_contactbx3_x_2 + c2_2 * t1486;
-  const Real t1500 = front_contactbx2p_x_2 - front_contactbd2p_x_2 * t1486;
-  const Real t1503 = front_contactbx2p_z_2 - front_contactbd2p_z_2 * t1486;
-  const Real q012_2 = t1380 * q0d2_2;
-  const Real q033_2 = t1382 * q0d3_2;
-  const Real q003_2 = t1379 * q0d3_2;
+  const Real t1467 = Real(1.0) - front_contactbd0p_z_2 * front_contactbd0p_z_2;
+  const Real front_contactup_2 = detail::square_root(t1467);
+  const Real t1472 = model.c30 * ((front_contactbd0p_z_2 + front_contactbd0p_z_2) / front_contactup_2);
+  const Real t1485 = front_contactbx2p_z_2 - front_contactbd2p_z_2 * t1472;
+  const Real t1487 = front_contactbx2p_x_2 - front_contactbd2p_x_2 * t1472;
+  const Real t1491 = t1379 * t1379 + (t1378 * t1378 - (t1380 * t1380 + t1377 * t1377));
+  const Real t1497 = front_contactbx3_x_2 + c2_2 * t1472;
+  const Real t1501 = model.c31 * ((q0r2_y_2 + q0r2_y_2) / rear_contactup_2);
+  const Real q033_2 = t1380 * q0d3_2;
+  const Real q012_2 = t1378 * q0d2_2;
+  const Real q003_2 = t1377 * q0d3_2;
   const Real q0r0_x_2 = q022_2 - (Real(1.0) - q033_2);
   const Real q0r0_y_2 = q012_2 + q003_2;
   const Real q0r1_x_2 = q012_2 - q003_2;
-  const Real q0r1_y_2 = t1391 - q033_2;
+  const Real q0r1_y_2 = t1389 - q033_2;
   const Real q0r1_z_2 = q023_2 + q001_2;
-  const Real t1523 = model.rear_radius * q0r1_y_2;
-  const Real rear_contactc_y_2 = q0r2_y_2 * t1523 / rear_contactup_2;
-  const Real rear_contactc_z_2 = model.rear_radius * (t1394 / rear_contactup_2);
+  const Real t1519 = model.rear_radius * q0r1_y_2;
+  const Real rear_contactc_y_2 = q0r2_y_2 * t1519 / rear_contactup_2;
+  const Real rear_contactc_z_2 = model.rear_radius * (t1392 / rear_contactup_2);
   const Real rear_contacts1bn0_y_2 = q0r1_y_2 * rear_contactc_z_2 + q0r2_y_2 * rear_contactc_y_2;
   const Real rear_contacts1bn0_z_2 = q0r1_z_2 * rear_contactc_z_2 - q0r2_z_2 * rear_contactc_y_2;
-  const Real t1536 = model.rear_radius * q0r0_y_2;
-  const Real rear_contacts1bm_x = t1536 + (q0r1_x_2 * rear_contactc_z_2 + q0r2_x_2 * rear_contactc_y_2);
+  const Real t1532 = model.rear_radius * q0r0_y_2;
+  const Real rear_contacts1bm_x = t1532 + (q0r1_x_2 * rear_contactc_z_2 + q0r2_x_2 * rear_contactc_y_2);
   const Real rear_contacts1bm_y = rear_contacts1bn0_y_2 + model.rear_radius * q0r0_x_2;
   const Real q0r0_z_2 = q013_2 - q002_2;
-  const Real rear_contactc_x_2 = q0r2_y_2 * t1536 / rear_contactup_2;
+  const Real rear_contactc_x_2 = q0r2_y_2 * t1532 / rear_contactup_2;
   const Real rear_contacts2bn0_y_2 = q0r0_y_2 * rear_contactc_z_2 + q0r2_y_2 * rear_contactc_x_2;
   const Real rear_contacts2bn0_z_2 = rear_contactc_z_2 * q0r0_z_2 - q0r2_z_2 * rear_contactc_x_2;
-  const Real rear_contacts2bm_x = q0r2_x_2 * rear_contactc_x_2 - (t1523 + q0r0_x_2 * rear_contactc_z_2);
+  const Real rear_contacts2bm_x = q0r2_x_2 * rear_contactc_x_2 - (t1519 + q0r0_x_2 * rear_contactc_z_2);
   const Real rear_contacts2bm_y = rear_contacts2bn0_y_2 + model.rear_radius * q0r1_x_2;
   const Real front_contactbd0p_y_2 = front_contactbd2p_z_2 * q0r1_z_2 + (front_contactbd2p_x_2 * q0r1_x_2 -
       c2_2 * q0r1_y_2);
   const Real front_contactc_y_2 = model.front_radius * (front_contactbd0p_z_2 * front_contactbd0p_y_2 /
       front_contactup_2);
-  const Real front_contactc_z_2 = model.front_radius * (t1469 / front_contactup_2);
+  const Real front_contactc_z_2 = model.front_radius * (t1467 / front_contactup_2);
   const Real front_contacts1bf2_y_2 = Real(0.3090169943749474) * q0r0_z_2 - Real(0.9510565162951535) *
       q0r0_x_2;
   const Real front_contacts1bn0_x_2 = q0r1_x_2 * front_contactc_z_2 - q0r2_x_2 * front_contactc_y_2;
@@ -1894,70 +1891,71 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
       front_contactbx2p_z_2 * q0r1_x_2);
   const Real front_contacts2bm_z_3 = front_contactbx2p_x_2 * q0r1_y_2 + (front_contacts2bn0_z_2 -
       front_contactbx3_x_2 * q0r1_x_2);
-  const Real t1658 = q0r2_x_2 * t1474 * state.z[5] - (model.rear_radius * (q0r2_x_2 * state.z[4]) +
-      (state.z[2] + (t1474 * t1493 + model.rear_radius * q0r2_y_2) * state.z[3]));
-  const Real t1689 = t945 * t1658 + (rear_contacts1bn0_y_2 * state.z[6] + (rear_contacts1bn0_z_2 * state.z[5]
+  const Real t1654 = q0r2_x_2 * t1501 * state.z[5] - (model.rear_radius * (q0r2_x_2 * state.z[4]) +
+      (state.z[2] + (model.rear_radius * q0r2_y_2 + t1491 * t1501) * state.z[3]));
+  const Real t1685 = t943 * t1654 + (rear_contacts1bn0_y_2 * state.z[6] + (rear_contacts1bn0_z_2 * state.z[5]
       + (rear_contacts1bm_y * state.z[4] + (state.z[0] - rear_contacts1bm_x * state.z[3]))));
-  const Real t1700 = t1000 * t1689 - (t956 * t1658 - (rear_contacts2bn0_y_2 * state.z[6] +
+  const Real t1696 = t998 * t1685 - (t954 * t1654 - (rear_contacts2bn0_y_2 * state.z[6] +
       (rear_contacts2bn0_z_2 * state.z[5] + (rear_contacts2bm_y * state.z[4] + (state.z[1] -
       rear_contacts2bm_x * state.z[3])))));
-  const Real t1711 = t1046 * t1700 - (t1012 * t1689 - (t966 * t1658 + ((front_contactbx3_x_2 * t1482 +
-      ((q0r2_y_2 * s2_2 + c2_2 * t1482) * t1486 - q0r2_y_2 * front_contactbx3_y_2)) * state.z[7] + ((q0r2_x_2
-      * t1495 - q0r2_y_2 * t1500) * state.z[5] - ((t1493 * t1500 + q0r2_x_2 * t1503) * state.z[4] +
-      (state.z[2] + (t1493 * t1495 + q0r2_y_2 * t1503) * state.z[3]))))));
-  const Real t1723 = t1085 * t1711 - (t1059 * t1700 - (t1022 * t1689 - (t976 * t1658 +
+  const Real t1707 = t1044 * t1696 - (t1010 * t1685 - (t964 * t1654 + ((t1472 * (q0r2_y_2 * s2_2 - c2_2 *
+      (Real(0.3090169943749474) * q0r2_z_2 - Real(0.9510565162951535) * q0r2_x_2)) - model.r_front_y *
+      front_contactbd0p_z_2) * state.z[7] - ((q0r2_y_2 * t1487 - q0r2_x_2 * t1497) * state.z[5] + ((t1487 *
+      t1491 + q0r2_x_2 * t1485) * state.z[4] + (state.z[2] + (q0r2_y_2 * t1485 + t1491 * t1497) *
+      state.z[3]))))));
+  const Real t1719 = t1083 * t1707 - (t1057 * t1696 - (t1020 * t1685 - (t974 * t1654 +
       (front_contacts1bn3p_x_2 * state.z[8] + (front_contacts1bm_z_2 * state.z[7] - (front_contacts1bm_z_3 *
       state.z[5] - (front_contacts1bm_y * state.z[4] + (state.z[0] + front_contacts1bm_x * state.z[3]))))))));
-  const Real t1741 = t1131 * (t1115 * t1723 - (t1100 * t1711 - (t1071 * t1700 - (t1033 * t1689 - (t987 * t1658
+  const Real t1737 = t1129 * (t1113 * t1719 - (t1098 * t1707 - (t1069 * t1696 - (t1031 * t1685 - (t985 * t1654
       + (front_contacts2bn3p_x_2 * state.z[8] - (front_contacts2bm_z_2 * state.z[7] - (front_contacts2bm_z_3 *
       state.z[5] - (front_contacts2bm_y * state.z[4] - (state.z[1] - front_contacts2bm_x *
       state.z[3]))))))))));
-  const Real t1743 = t1114 * t1723 - t1115 * t1741;
-  const Real t1747 = t1100 * t1741 - (t1084 * t1711 - t1085 * t1743);
-  const Real t1753 = t1071 * t1741 + (t1059 * t1743 - (t1045 * t1700 + t1046 * t1747));
-  const Real t1761 = t1033 * t1741 + (t1022 * t1743 - (t1012 * t1747 + (t999 * t1689 + t1000 * t1753)));
-  const Real t1771 = t987 * t1741 + (t976 * t1743 - (t966 * t1747 + (t956 * t1753 + (t944 * t1658 + t945 *
-      t1761))));
-  const Real t1849 = t493 * (t729 * t1741 + (t677 * t1743 - (t625 * t1747 - (t582 * t1753 - (t522 * t1771 +
-      t552 * t1761)))));
-  const Real t1852 = t484 * (t722 * t1741 + (t669 * t1743 - (t618 * t1747 - (t576 * t1753 - (t516 * t1771 +
-      t545 * t1761))))) - t485 * t1849;
-  const Real t1857 = t470 * t1852 - (t469 * (t714 * t1741 + (t662 * t1743 - (t611 * t1747 - (t569 * t1753 -
-      (t510 * t1771 + t539 * t1761))))) - t482 * t1849);
-  const Real t1864 = t449 * t1857 - (t464 * t1852 - (t448 * (t707 * t1741 + (t655 * t1743 - (t603 * t1747 -
-      (t563 * t1753 - (t503 * t1771 + t533 * t1761))))) - t467 * t1849));
-  const Real t1873 = t417 * t1864 - (t439 * t1857 - (t443 * t1852 - (t416 * (t696 * t1741 + (t644 * t1743 -
-      (t594 * t1747 - (t554 * t1753 - (t495 * t1771 + t524 * t1761))))) - t446 * t1849)));
-  const Real t1884 = t376 * t1873 - (t402 * t1864 - (t407 * t1857 - (t411 * t1852 - (t375 * (t685 * t1741 +
-      (t633 * t1743 - (t585 * t1747 + (rear_contacts2bn0_z * t1753 + (t84 * t1771 + rear_contacts1bn0_z *
-      t1761))))) - t414 * t1849))));
-  closed.y[0] = t1275 + state.y[0];
-  closed.y[1] = t1278 + state.y[1];
-  closed.y[2] = state.y[2] + t1283;
-  closed.y[3] = -t1379;
-  closed.y[4] = t1380;
-  closed.y[5] = -t1381;
-  closed.y[6] = -t1382;
-  closed.y[7] = t1312 + state.y[7];
-  closed.y[8] = state.y[8] + t1325;
-  closed.y[9] = -(t1332 - state.y[9]);
-  closed.z[0] = state.z[0] + t1849;
-  closed.z[1] = state.z[1] + t1852;
-  closed.z[2] = state.z[2] + t1857;
-  closed.z[3] = state.z[3] + t1864;
-  closed.z[4] = state.z[4] - t1873;
-  closed.z[5] = state.z[5] + t1884;
-  closed.z[6] = Real(8.333333333333334) * (rear_contacts1bn0_y * t1761 - rear_contacts2bn0_y * t1753) +
-      (state.z[6] + t1873);
-  closed.z[7] = t321 * t1884 - (t355 * t1873 + (t361 * t1864 + (t366 * t1857 - (t370 * t1852 + (t373 * t1849 +
-      (state.z[7] - model.c29 * (front_contacts2bm_z * t1741 - (t93 * t1747 - front_contacts1bm_z *
-      t1743))))))));
-  closed.z[8] = -(t311 * t1884 - (t315 * t1873 + (t318 * t1864 + (state.z[8] - Real(3.571428571428571) *
-      (front_contacts1bn3p_x * t1743 + front_contacts2bn3p_x * t1741)))));
-  closed.regularity = -(Real(1.0) / (t1131 * (t1114 * (t1084 * (t1045 * (t944 * t999))))) *
+  const Real t1739 = t1112 * t1719 - t1113 * t1737;
+  const Real t1743 = t1098 * t1737 - (t1082 * t1707 - t1083 * t1739);
+  const Real t1749 = t1069 * t1737 + (t1057 * t1739 - (t1043 * t1696 + t1044 * t1743));
+  const Real t1757 = t1031 * t1737 + (t1020 * t1739 - (t1010 * t1743 + (t997 * t1685 + t998 * t1749)));
+  const Real t1767 = t985 * t1737 + (t974 * t1739 - (t964 * t1743 + (t954 * t1749 + (t942 * t1654 + t943 *
+      t1757))));
+  const Real t1845 = t491 * (t727 * t1737 + (t675 * t1739 - (t623 * t1743 - (t580 * t1749 - (t520 * t1767 +
+      t550 * t1757)))));
+  const Real t1848 = t482 * (t720 * t1737 + (t667 * t1739 - (t616 * t1743 - (t574 * t1749 - (t514 * t1767 +
+      t543 * t1757))))) - t483 * t1845;
+  const Real t1853 = t468 * t1848 - (t467 * (t712 * t1737 + (t660 * t1739 - (t609 * t1743 - (t567 * t1749 -
+      (t508 * t1767 + t537 * t1757))))) - t480 * t1845);
+  const Real t1860 = t447 * t1853 - (t462 * t1848 - (t446 * (t705 * t1737 + (t653 * t1739 - (t601 * t1743 -
+      (t561 * t1749 - (t501 * t1767 + t531 * t1757))))) - t465 * t1845));
+  const Real t1869 = t415 * t1860 - (t437 * t1853 - (t441 * t1848 - (t414 * (t694 * t1737 + (t642 * t1739 -
+      (t592 * t1743 - (t552 * t1749 - (t493 * t1767 + t522 * t1757))))) - t444 * t1845)));
+  const Real t1880 = t374 * t1869 - (t400 * t1860 - (t405 * t1853 - (t409 * t1848 - (t373 * (t683 * t1737 +
+      (t631 * t1739 - (t583 * t1743 + (rear_contacts2bn0_z * t1749 + (t94 * t1767 + rear_contacts1bn0_z *
+      t1757))))) - t412 * t1845))));
+  closed.y[0] = t1273 + state.y[0];
+  closed.y[1] = t1276 + state.y[1];
+  closed.y[2] = state.y[2] + t1281;
+  closed.y[3] = -t1377;
+  closed.y[4] = t1378;
+  closed.y[5] = -t1379;
+  closed.y[6] = -t1380;
+  closed.y[7] = t1310 + state.y[7];
+  closed.y[8] = state.y[8] + t1323;
+  closed.y[9] = -(t1330 - state.y[9]);
+  closed.z[0] = state.z[0] + t1845;
+  closed.z[1] = state.z[1] + t1848;
+  closed.z[2] = state.z[2] + t1853;
+  closed.z[3] = state.z[3] + t1860;
+  closed.z[4] = state.z[4] - t1869;
+  closed.z[5] = state.z[5] + t1880;
+  closed.z[6] = Real(8.333333333333334) * (rear_contacts1bn0_y * t1757 - rear_contacts2bn0_y * t1749) +
+      (state.z[6] + t1869);
+  closed.z[7] = t319 * t1880 - (t353 * t1869 + (t359 * t1860 + (t364 * t1853 - (t368 * t1848 + (t371 * t1845 +
+      (state.z[7] - model.c29 * (front_contacts2bm_z * t1737 - (t89 * t1743 - front_contacts1bm_z *
+      t1739))))))));
+  closed.z[8] = -(t309 * t1880 - (t313 * t1869 + (t316 * t1860 + (state.z[8] - Real(3.571428571428571) *
+      (front_contacts1bn3p_x * t1739 + front_contacts2bn3p_x * t1737)))));
+  closed.regularity = -(Real(1.0) / (t1129 * (t1112 * (t1082 * (t1043 * (t942 * t997))))) *
       Real(70211.04724568786));
-  closed.opening = t1332 * t1332 + (t1325 * t1325 + (t1312 * t1312 + (t1310 * t1310 + (t1299 * t1299 + (t1290
-      * t1290 + (t1283 * t1283 + (t1275 * t1275 + t1278 * t1278)))))));
+  closed.opening = t1330 * t1330 + (t1323 * t1323 + (t1310 * t1310 + (t1308 * t1308 + (t1297 * t1297 + (t1288
+      * t1288 + (t1281 * t1281 + (t1273 * t1273 + t1276 * t1276)))))));
   state = closed;
 }
 
@@ -1994,34 +1992,33 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real front_contactup = detail::square_root(t52);
   const Real g_front_contact = q0r2_x * front_contactbx2p_x + (state.y[2] + (q0r2_y * front_contactbx3_x +
       (q0r2_z * front_contactbx2p_z + front_contactup * model.front_radius)));
-  const Real t64 = (q0r2_y + q0r2_y) / rear_contactup * model.c30;
-  const Real t70 = q0r2_x * Real(0.9510565162951535) + q0r2_z * Real(0.3090169943749474);
-  const Real t75 = (front_contactbd0p_z + front_contactbd0p_z) / front_contactup * model.c31;
-  const Real t84 = (q011 + q022) * Real(0.5) - (state.y[6] * state.y[6] + state.y[3] * state.y[3]);
-  const Real t86 = front_contactbx3_x - c2 * t75;
-  const Real t91 = front_contactbx2p_x + front_contactbd2p_x * t75;
-  const Real t94 = front_contactbx2p_z + front_contactbd2p_z * t75;
-  const Real q033 = state.y[6] * q0d3;
+  const Real t64 = (front_contactbd0p_z + front_contactbd0p_z) / front_contactup * model.c30;
+  const Real t75 = front_contactbx2p_z + front_contactbd2p_z * t64;
+  const Real t77 = front_contactbx2p_x + front_contactbd2p_x * t64;
+  const Real t83 = (q011 + q022) * Real(0.5) - (state.y[6] * state.y[6] + state.y[3] * state.y[3]);
   const Real q012 = state.y[4] * q0d2;
+  const Real t90 = front_contactbx3_x - c2 * t64;
+  const Real t95 = (q0r2_y + q0r2_y) / rear_contactup * model.c31;
+  const Real q033 = state.y[6] * q0d3;
   const Real q003 = q0d3 * state.y[3];
   const Real q0r0_x = q033 + (q022 - Real(1.0));
   const Real q0r0_y = q012 - q003;
   const Real q0r1_x = q012 + q003;
   const Real q0r1_y = t14 + q033;
   const Real q0r1_z = q023 - q001;
-  const Real t114 = model.rear_radius * q0r1_y;
-  const Real rear_contactc_y = q0r2_y * t114 / rear_contactup;
+  const Real t112 = model.rear_radius * q0r1_y;
+  const Real rear_contactc_y = q0r2_y * t112 / rear_contactup;
   const Real rear_contactc_z = model.rear_radius * (t18 / rear_contactup);
   const Real rear_contacts1bn0_y = q0r1_y * rear_contactc_z + q0r2_y * rear_contactc_y;
   const Real rear_contacts1bn0_z = q0r1_z * rear_contactc_z + q0r2_z * rear_contactc_y;
-  const Real t127 = model.rear_radius * q0r0_y;
-  const Real rear_contacts1bm_x = q0r2_x * rear_contactc_y - (q0r1_x * rear_contactc_z + t127);
+  const Real t125 = model.rear_radius * q0r0_y;
+  const Real rear_contacts1bm_x = q0r2_x * rear_contactc_y - (q0r1_x * rear_contactc_z + t125);
   const Real rear_contacts1bm_y = rear_contacts1bn0_y - model.rear_radius * q0r0_x;
   const Real q0r0_z = q013 + q002;
-  const Real rear_contactc_x = q0r2_y * t127 / rear_contactup;
+  const Real rear_contactc_x = q0r2_y * t125 / rear_contactup;
   const Real rear_contacts2bn0_y = q0r0_y * rear_contactc_z + q0r2_y * rear_contactc_x;
   const Real rear_contacts2bn0_z = rear_contactc_z * q0r0_z - q0r2_z * rear_contactc_x;
-  const Real rear_contacts2bm_x = q0r0_x * rear_contactc_z - (t114 + q0r2_x * rear_contactc_x);
+  const Real rear_contacts2bm_x = q0r0_x * rear_contactc_z - (t112 + q0r2_x * rear_contactc_x);
   const Real rear_contacts2bm_y = rear_contacts2bn0_y + model.rear_radius * q0r1_x;
   const Real front_contactbd0p_y = c2 * q0r1_y + (front_contactbd2p_x * q0r1_x - front_contactbd2p_z *
       q0r1_z);
@@ -2076,13 +2073,14 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   g[3] = -g_front_contact;
   g[4] = Real(0.0);
   g[5] = Real(0.0);
-  g_rate[0] = -((t64 * t84 + q0r2_y * model.rear_radius) * state.z[3] + (state.z[2] - (model.rear_radius *
-      (q0r2_x * state.z[4]) - q0r2_x * t64 * state.z[5])));
+  g_rate[0] = -((q0r2_y * model.rear_radius + t83 * t95) * state.z[3] + (state.z[2] - (model.rear_radius *
+      (q0r2_x * state.z[4]) - q0r2_x * t95 * state.z[5])));
   g_rate[1] = -rear_contacts0;
   g_rate[2] = -rear_contacts1;
-  g_rate[3] = (t84 * t86 - q0r2_y * t94) * state.z[3] - (state.z[2] + ((t84 * t91 - q0r2_x * t94) * state.z[4]
-      - ((q0r2_x * t86 - q0r2_y * t91) * state.z[5] - (q0r2_y * front_contactbx3_y + ((q0r2_y * s2 + c2 * t70)
-      * t75 - front_contactbx3_x * t70)) * state.z[7])));
+  g_rate[3] = -((q0r2_y * t75 - t83 * t90) * state.z[3] + (state.z[2] + ((t77 * t83 - q0r2_x * t75) *
+      state.z[4] + ((q0r2_y * t77 - q0r2_x * t90) * state.z[5] + (t64 * (q0r2_y * s2 + c2 * (q0r2_z *
+      Real(0.3090169943749474) + q0r2_x * Real(0.9510565162951535))) + model.r_front_y * front_contactbd0p_z)
+      * state.z[7]))));
   g_rate[4] = front_contacts0;
   g_rate[5] = front_contacts1;
 }
@@ -2121,25 +2119,22 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t48 = state.y[4] * Real(0.5);
   const Real t49 = state.y[5] * Real(0.5);
   const Real t50 = state.y[6] * Real(0.5);
-  const Real t51 = q0r2_y + q0r2_y;
-  const Real t52 = Real(1.0) / rear_contactup;
-  const Real t53 = Real(0.5) * t52;
-  const Real t54 = front_contactbd0p_z + front_contactbd0p_z;
-  const Real t55 = Real(1.0) / front_contactup;
-  const Real t56 = Real(0.5) * t55;
-  const Real t58 = t53 * model.rear_radius;
-  const Real t59 = t51 * t58;
-  const Real t67 = q0r2_x * Real(0.9510565162951535) + q0r2_z * Real(0.3090169943749474);
-  const Real t69 = q0r2_y * s2 + c2 * t67;
-  const Real t70 = t54 * t56;
-  const Real t72 = t70 * model.front_radius;
-  const Real t79 = q0d2 * t49 - (q0d3 * t50 + (state.y[3] * state.y[3] - q0d1 * t48));
-  const Real t81 = front_contactbx3_x + c2 * t72;
-  const Real t83 = q0r2_x * t59;
-  const Real t86 = front_contactbx2p_x - front_contactbd2p_x * t72;
-  const Real t89 = front_contactbx2p_z - front_contactbd2p_z * t72;
-  const Real t92 = front_contactbx3_x * t67 + (t69 * t72 - q0r2_y * front_contactbx3_y);
-  const Real q012 = state.y[4] * q0d2;
+  const Real t51 = Real(1.0) / rear_contactup;
+  const Real t52 = front_contactbd0p_z + front_contactbd0p_z;
+  const Real t53 = Real(1.0) / front_contactup;
+  const Real t54 = Real(0.5) * t53;
+  const Real t56 = t54 * model.front_radius;
+  const Real t57 = t52 * t56;
+  const Real t63 = q0r2_y * s2 + c2 * (q0r2_z * Real(0.3090169943749474) + q0r2_x * Real(0.9510565162951535));
+  const Real t70 = front_contactbx2p_z - front_contactbd2p_z * t57;
+  const Real t72 = front_contactbx2p_x - front_contactbd2p_x * t57;
+  const Real t76 = q0d2 * t49 + (q0d1 * t48 - (q0d3 * t50 + state.y[3] * state.y[3]));
+  const Real q012 = q0d1 * state.y[5];
+  const Real t85 = front_contactbx3_x + c2 * t57;
+  const Real t87 = t57 * t63 + model.r_front_y * front_contactbd0p_z;
+  const Real t88 = q0r2_y * t51;
+  const Real t89 = model.rear_radius * t88;
+  const Real t91 = q0r2_x * t89;
   const Real q033 = state.y[6] * q0d3;
   const Real q003 = q0d3 * state.y[3];
   const Real q0r0_x = Real(1.0) - (q022 + q033);
@@ -2147,21 +2142,21 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real q0r1_x = q012 + q003;
   const Real q0r1_y = t14 + q033;
   const Real q0r1_z = q023 - q001;
-  const Real t106 = model.rear_radius * q0r1_y;
-  const Real rear_contactc_y = t59 * q0r1_y;
+  const Real t102 = model.rear_radius * q0r1_y;
+  const Real rear_contactc_y = t88 * t102;
   const Real rear_contactc_z = model.rear_radius * (t17 / rear_contactup);
-  const Real rear_contacts1bn0_y = t52 * t106;
+  const Real rear_contacts1bn0_y = t51 * t102;
   const Real rear_contacts1bn0_z = q0r1_z * rear_contactc_z + q0r2_z * rear_contactc_y;
-  const Real t116 = model.rear_radius * q0r0_y;
+  const Real t112 = model.rear_radius * q0r0_y;
   const Real q0r0_z = q013 + q002;
-  const Real rear_contactc_x = t59 * q0r0_y;
-  const Real rear_contacts2bn0_y = t52 * t116;
+  const Real rear_contactc_x = t88 * t112;
+  const Real rear_contacts2bn0_y = t51 * t112;
   const Real rear_contacts2bn0_z = rear_contactc_z * q0r0_z - q0r2_z * rear_contactc_x;
   const Real front_contactbd0p_y = front_contactbd2p_z * q0r1_z - (front_contactbd2p_x * q0r1_x + c2 *
       q0r1_y);
-  const Real t132 = model.front_radius * front_contactbd0p_y;
-  const Real front_contactc_y = t70 * t132;
-  const Real front_contactc_z = model.front_radius * (t44 / front_contactup);
+  const Real front_contactc_y = t57 * front_contactbd0p_y;
+  const Real t129 = t44 / front_contactup;
+  const Real front_contactc_z = model.front_radius * t129;
   const Real front_contacts1bf2_y = Real(0.3090169943749474) * q0r0_z - Real(0.9510565162951535) * q0r0_x;
   const Real front_contacts1bn0_x = q0r1_x * front_contactc_z - q0r2_x * front_contactc_y;
   const Real front_contacts1bn0_y = q0r1_y * front_contactc_z + q0r2_y * front_contactc_y;
@@ -2172,8 +2167,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real front_contacts1bm_z = front_contactbx3_x * front_contacts1bf2_y + (front_contactbx3_y * q0r0_y +
       (Real(0.3090169943749474) * front_contacts1bn0_x + Real(0.9510565162951535) * front_contacts1bn0_z));
   const Real front_contactbd0p_x = c2 * q0r0_y + s2 * front_contacts1bf2_y;
-  const Real t170 = model.front_radius * front_contactbd0p_x;
-  const Real front_contactc_x = t70 * t170;
+  const Real front_contactc_x = t57 * front_contactbd0p_x;
   const Real front_contacts2bf2_y = Real(0.3090169943749474) * q0r1_z - Real(0.9510565162951535) * q0r1_x;
   const Real front_contacts2bn0_x = q0r0_x * front_contactc_z - q0r2_x * front_contactc_x;
   const Real front_contacts2bn0_y = q0r0_y * front_contactc_z - q0r2_y * front_contactc_x;
@@ -2193,31 +2187,31 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real h2b_y = c2 * model.front_h_y;
   const Real h2at2_x = Real(0.9510565162951535) * h2b_y;
   const Real h2at2_z = Real(0.3090169943749474) * h2b_y;
-  const Real t225 = Real(0.3090169943749474) * S2b_yz;
-  const Real S2at2r0_y = t225 + Real(0.9510565162951535) * S2b_yy;
-  const Real t228 = Real(0.9510565162951535) * S2b_yz;
-  const Real S2at2r0_z = t228 + Real(0.04326237921249264);
-  const Real S2at2r2_y = t228 - Real(0.3090169943749474) * S2b_yy;
+  const Real t219 = Real(0.3090169943749474) * S2b_yz;
+  const Real S2at2r0_y = t219 + Real(0.9510565162951535) * S2b_yy;
+  const Real t222 = Real(0.9510565162951535) * S2b_yz;
+  const Real S2at2r0_z = t222 + Real(0.04326237921249264);
+  const Real S2at2r2_y = t222 - Real(0.3090169943749474) * S2b_yy;
   const Real h2c_x = h2at2_x + model.c6;
   const Real h2c_z = h2at2_z + model.c7;
-  const Real t243 = h2b_x * model.r_steer_x;
-  const Real S2c_xy = t243 + (Real(0.3090169943749474) * S2b_xz - Real(0.9510565162951535) * S2b_xy);
-  const Real t254 = h2at2_z - model.h_z;
+  const Real t237 = h2b_x * model.r_steer_x;
+  const Real S2c_xy = t237 + (Real(0.3090169943749474) * S2b_xz - Real(0.9510565162951535) * S2b_xy);
+  const Real t248 = h2at2_z - model.h_z;
   const Real S2c_xz = Real(0.3090169943749474) * (S2at2r0_y - model.SR_z) + ((h2at2_x + model.c9) *
-      model.r_steer_z - (Real(0.9510565162951535) * S2at2r0_z - model.r_steer_x * t254)) +
+      model.r_steer_z - (Real(0.9510565162951535) * S2at2r0_z - model.r_steer_x * t248)) +
       Real(25.349999999999998);
   const Real S2c_yy = S2b_xx - Real(0.5002999999999995);
-  const Real t263 = h2b_x * model.r_steer_z;
-  const Real S2c_yz = t263 - (Real(0.3090169943749474) * S2b_xy + Real(0.9510565162951535) * S2b_xz);
+  const Real t257 = h2b_x * model.r_steer_z;
+  const Real S2c_yz = t257 - (Real(0.3090169943749474) * S2b_xy + Real(0.9510565162951535) * S2b_xz);
   const Real S1c_xx = (h2at2_x + model.h_x) * model.c14 + (Real(0.9510565162951535) * S2at2r0_y +
       Real(0.3090169943749474) * (S2at2r0_z + model.SR_x)) + model.c16;
-  const Real S1c_zz = t254 * model.c17 - (Real(0.3090169943749474) * S2at2r2_y + Real(0.9510565162951535) *
-      (t225 - model.c18)) + model.c19;
+  const Real S1c_zz = t248 * model.c17 - (Real(0.3090169943749474) * S2at2r2_y + Real(0.9510565162951535) *
+      (t219 - model.c18)) + model.c19;
   const Real p_7_2l_x = h2b_y * model.r_steer_z;
   const Real p_7_2l_z = h2b_y * model.r_steer_x;
-  const Real p_7_2n_x = t228 - p_7_2l_x + model.c20;
-  const Real p_7_2n_y = t263 * Real(0.9510565162951535) - (S2b_xz + t243 * Real(0.3090169943749474));
-  const Real p_7_2n_z = t225 + p_7_2l_z - model.c21;
+  const Real p_7_2n_x = t222 - p_7_2l_x + model.c20;
+  const Real p_7_2n_y = t257 * Real(0.9510565162951535) - (S2b_xz + t237 * Real(0.3090169943749474));
+  const Real p_7_2n_z = t219 + p_7_2l_z - model.c21;
   const Real p_7_0f_x = front_contactbd0p_x * model.front_h_y;
   const Real p_7_0f_y = front_contactbd0p_y * model.front_h_y;
   const Real p_7_0f_z = front_contactbd0p_z * model.front_h_y;
@@ -2225,247 +2219,249 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real p_8_3N_y = s2 * Real(0.28);
   const Real p_8_2n_x = Real(0.9510565162951535) * p_8_3N_y;
   const Real p_8_2n_z = Real(0.3090169943749474) * p_8_3N_y;
-  const Real t327 = p_8_2n_z * Real(3.571428571428571);
-  const Real t331 = p_8_3N_x * Real(3.571428571428571);
-  const Real t334 = p_8_2n_x * Real(3.571428571428571);
-  const Real t337 = p_7_2n_z * model.c29;
-  const Real t344 = p_7_2n_y * t337 + (S2c_yz - p_8_3N_x * t327);
-  const Real t347 = p_7_2n_x * t337 - (S2c_xz + p_8_2n_x * t327);
-  const Real t350 = p_7_0f_z * t337 + (q0r2_x * h2b_x - q0r2_y * h2c_x);
-  const Real t353 = p_7_0f_y * t337 - (q0r1_x * h2b_x + q0r1_y * h2c_x);
-  const Real t356 = p_7_0f_x * t337 - (q0r0_x * h2b_x - q0r0_y * h2c_x);
-  const Real t357 = p_7_2n_y * model.c29;
-  const Real t363 = p_7_2n_x * model.c29;
-  const Real t368 = p_7_0f_z * model.c29;
-  const Real t372 = p_7_0f_y * model.c29;
-  const Real t375 = p_7_0f_x * model.c29;
-  const Real t377 = Real(1.0) / (p_7_2n_z * t337 - (p_8_2n_z * t327 + (S2c_yy - S1c_xx)));
-  const Real t378 = t344 * t377;
-  const Real t389 = t347 * t378 - (p_7_2n_x * t357 + (S2c_xy - p_8_2n_x * t331));
-  const Real t393 = t350 * t378 - (p_7_0f_z * t357 + (q0r2_x * h2c_z - q0r2_z * h2c_x));
-  const Real t397 = t353 * t378 - (p_7_0f_y * t357 - (q0r1_x * h2c_z + q0r1_z * h2c_x));
-  const Real t401 = t356 * t378 - (p_7_0f_x * t357 - (q0r0_x * h2c_z + q0r0_z * h2c_x));
-  const Real t402 = t347 * t377;
-  const Real t407 = t350 * t377;
-  const Real t411 = t353 * t377;
-  const Real t414 = t356 * t377;
-  const Real t416 = Real(1.0) / (t344 * t378 - (p_7_2n_y * t357 - (p_8_3N_x * t331 - (S1c_xx + S1c_zz))) +
+  const Real t321 = p_8_2n_z * Real(3.571428571428571);
+  const Real t325 = p_8_3N_x * Real(3.571428571428571);
+  const Real t328 = p_8_2n_x * Real(3.571428571428571);
+  const Real t331 = p_7_2n_z * model.c29;
+  const Real t338 = p_7_2n_y * t331 + (S2c_yz - p_8_3N_x * t321);
+  const Real t341 = p_7_2n_x * t331 - (S2c_xz + p_8_2n_x * t321);
+  const Real t344 = p_7_0f_z * t331 + (q0r2_x * h2b_x - q0r2_y * h2c_x);
+  const Real t347 = p_7_0f_y * t331 - (q0r1_x * h2b_x + q0r1_y * h2c_x);
+  const Real t350 = p_7_0f_x * t331 - (q0r0_x * h2b_x - q0r0_y * h2c_x);
+  const Real t351 = p_7_2n_y * model.c29;
+  const Real t357 = p_7_2n_x * model.c29;
+  const Real t362 = p_7_0f_z * model.c29;
+  const Real t366 = p_7_0f_y * model.c29;
+  const Real t369 = p_7_0f_x * model.c29;
+  const Real t371 = Real(1.0) / (p_7_2n_z * t331 - (p_8_2n_z * t321 + (S2c_yy - S1c_xx)));
+  const Real t372 = t338 * t371;
+  const Real t383 = t341 * t372 - (p_7_2n_x * t351 + (S2c_xy - p_8_2n_x * t325));
+  const Real t387 = t344 * t372 - (p_7_0f_z * t351 + (q0r2_x * h2c_z - q0r2_z * h2c_x));
+  const Real t391 = t347 * t372 - (p_7_0f_y * t351 - (q0r1_x * h2c_z + q0r1_z * h2c_x));
+  const Real t395 = t350 * t372 - (p_7_0f_x * t351 - (q0r0_x * h2c_z + q0r0_z * h2c_x));
+  const Real t396 = t341 * t371;
+  const Real t401 = t344 * t371;
+  const Real t405 = t347 * t371;
+  const Real t408 = t350 * t371;
+  const Real t410 = Real(1.0) / (t338 * t372 - (p_7_2n_y * t351 - (p_8_3N_x * t325 - (S1c_xx + S1c_zz))) +
       Real(0.12));
-  const Real t417 = t389 * t416;
-  const Real t428 = t393 * t417 - (t350 * t402 - (p_7_0f_z * t363 + (q0r2_y * h2c_z - q0r2_z * h2b_x)));
-  const Real t433 = t397 * t417 - (t353 * t402 - (p_7_0f_y * t363 + (q0r1_y * h2c_z - q0r1_z * h2b_x)));
-  const Real t438 = t401 * t417 - (t356 * t402 - (p_7_0f_x * t363 - (q0r0_y * h2c_z + q0r0_z * h2b_x)));
-  const Real t439 = t393 * t416;
-  const Real t443 = t397 * t416;
-  const Real t446 = t401 * t416;
-  const Real t448 = Real(1.0) / (t389 * t417 - (t347 * t402 - (p_7_2n_x * t363 - (p_8_2n_x * t334 + (S2c_yy -
+  const Real t411 = t383 * t410;
+  const Real t422 = t387 * t411 - (t344 * t396 - (p_7_0f_z * t357 + (q0r2_y * h2c_z - q0r2_z * h2b_x)));
+  const Real t427 = t391 * t411 - (t347 * t396 - (p_7_0f_y * t357 + (q0r1_y * h2c_z - q0r1_z * h2b_x)));
+  const Real t432 = t395 * t411 - (t350 * t396 - (p_7_0f_x * t357 - (q0r0_y * h2c_z + q0r0_z * h2b_x)));
+  const Real t433 = t387 * t410;
+  const Real t437 = t391 * t410;
+  const Real t440 = t395 * t410;
+  const Real t442 = Real(1.0) / (t383 * t411 - (t341 * t396 - (p_7_2n_x * t357 - (p_8_2n_x * t328 + (S2c_yy -
       S1c_zz)))));
-  const Real t449 = t428 * t448;
-  const Real t459 = t433 * t449 - (t397 * t439 + (p_7_0f_y * t368 - t353 * t407));
-  const Real t463 = t438 * t449 - (t401 * t439 + (p_7_0f_x * t368 - t356 * t407));
-  const Real t464 = t433 * t448;
-  const Real t467 = t438 * t448;
-  const Real t469 = Real(1.0) / (t428 * t449 - (t393 * t439 + (p_7_0f_z * t368 - t350 * t407)) - Real(94.0));
-  const Real t470 = t459 * t469;
-  const Real t481 = t463 * t470 - (t438 * t464 - (t401 * t443 + (p_7_0f_x * t372 - t356 * t411)));
-  const Real t482 = t463 * t469;
-  const Real t484 = Real(1.0) / (t459 * t470 - (t433 * t464 - (t397 * t443 - (t353 * t411 - (p_7_0f_y * t372 +
+  const Real t443 = t422 * t442;
+  const Real t453 = t427 * t443 - (t391 * t433 + (p_7_0f_y * t362 - t347 * t401));
+  const Real t457 = t432 * t443 - (t395 * t433 + (p_7_0f_x * t362 - t350 * t401));
+  const Real t458 = t427 * t442;
+  const Real t461 = t432 * t442;
+  const Real t463 = Real(1.0) / (t422 * t443 - (t387 * t433 + (p_7_0f_z * t362 - t344 * t401)) - Real(94.0));
+  const Real t464 = t453 * t463;
+  const Real t475 = t457 * t464 - (t432 * t458 - (t395 * t437 + (p_7_0f_x * t366 - t350 * t405)));
+  const Real t476 = t457 * t463;
+  const Real t478 = Real(1.0) / (t453 * t464 - (t427 * t458 - (t391 * t437 - (t347 * t405 - (p_7_0f_y * t366 +
       Real(94.0))))));
-  const Real t485 = t481 * t484;
-  const Real t493 = Real(1.0) / (t481 * t485 - (t463 * t482 - (t438 * t467 - (t401 * t446 - (t356 * t414 -
-      (p_7_0f_x * t375 + Real(94.0)))))));
-  const Real t495 = q0r2_x * model.rear_radius + t83 * t378;
-  const Real t503 = t417 * t495 - (t83 * t402 + (t59 * t79 + q0r2_y * model.rear_radius));
-  const Real t510 = t449 * t503 - (t439 * t495 - (Real(1.0) + t83 * t407));
-  const Real t516 = t470 * t510 - (t464 * t503 + (t83 * t411 - t443 * t495));
-  const Real t522 = t485 * t516 - (t482 * t510 - (t467 * t503 + (t83 * t414 - t446 * t495)));
-  const Real t524 = model.rear_radius * q0r0_x + rear_contacts1bn0_z * t378;
-  const Real t533 = t417 * t524 - (rear_contacts1bn0_z * t402 + (t116 + (q0r1_x * rear_contactc_z - q0r2_x *
+  const Real t479 = t475 * t478;
+  const Real t487 = Real(1.0) / (t475 * t479 - (t457 * t476 - (t432 * t461 - (t395 * t440 - (t350 * t408 -
+      (p_7_0f_x * t369 + Real(94.0)))))));
+  const Real t489 = q0r2_x * model.rear_radius + t91 * t372;
+  const Real t497 = t411 * t489 - (t91 * t396 + (q0r2_y * model.rear_radius + t76 * t89));
+  const Real t504 = t443 * t497 - (t433 * t489 - (Real(1.0) + t91 * t401));
+  const Real t510 = t464 * t504 - (t458 * t497 + (t91 * t405 - t437 * t489));
+  const Real t516 = t479 * t510 - (t476 * t504 - (t461 * t497 + (t91 * t408 - t440 * t489)));
+  const Real t518 = model.rear_radius * q0r0_x + rear_contacts1bn0_z * t372;
+  const Real t527 = t411 * t518 - (rear_contacts1bn0_z * t396 + (t112 + (q0r1_x * rear_contactc_z - q0r2_x *
       rear_contactc_y)));
-  const Real t539 = t449 * t533 + (rear_contacts1bn0_z * t407 - t439 * t524);
-  const Real t545 = t470 * t539 - (t464 * t533 + (rear_contacts1bn0_z * t411 - t443 * t524));
-  const Real t552 = t485 * t545 - (t482 * t539 - (t467 * t533 - (t446 * t524 + (Real(1.0) -
-      rear_contacts1bn0_z * t414))));
-  const Real t554 = model.rear_radius * q0r1_x - rear_contacts2bn0_z * t378;
-  const Real t563 = t417 * t554 + (rear_contacts2bn0_z * t402 + (q0r2_x * rear_contactc_x + (t106 + q0r0_x *
+  const Real t533 = t443 * t527 + (rear_contacts1bn0_z * t401 - t433 * t518);
+  const Real t539 = t464 * t533 - (t458 * t527 + (rear_contacts1bn0_z * t405 - t437 * t518));
+  const Real t546 = t479 * t539 - (t476 * t533 - (t461 * t527 - (t440 * t518 + (Real(1.0) -
+      rear_contacts1bn0_z * t408))));
+  const Real t548 = model.rear_radius * q0r1_x - rear_contacts2bn0_z * t372;
+  const Real t557 = t411 * t548 + (rear_contacts2bn0_z * t396 + (q0r2_x * rear_contactc_x + (t102 + q0r0_x *
       rear_contactc_z)));
-  const Real t569 = t449 * t563 - (rear_contacts2bn0_z * t407 + t439 * t554);
-  const Real t576 = t470 * t569 - (t464 * t563 - (t443 * t554 + (Real(1.0) + rear_contacts2bn0_z * t411)));
-  const Real t582 = t485 * t576 - (t482 * t569 - (t467 * t563 - (rear_contacts2bn0_z * t414 + t446 * t554)));
-  const Real t585 = t92 * t337 + (q0r2_x * t81 - q0r2_y * t86);
-  const Real t594 = t378 * t585 - (t92 * t357 - (t79 * t86 - q0r2_x * t89));
-  const Real t603 = t417 * t594 - (t402 * t585 - (t92 * t363 - (t79 * t81 - q0r2_y * t89)));
-  const Real t611 = t449 * t603 - (t439 * t594 - (t407 * t585 - (Real(1.0) + t92 * t368)));
-  const Real t618 = t470 * t611 - (t464 * t603 - (t443 * t594 + (t92 * t372 - t411 * t585)));
-  const Real t625 = t485 * t618 - (t482 * t611 - (t467 * t603 - (t446 * t594 + (t92 * t375 - t414 * t585))));
-  const Real t633 = front_contacts1bm_z * t337 + (front_contacts1bn3p_x * t327 + (front_contactbx2p_x * q0r0_y
+  const Real t563 = t443 * t557 - (rear_contacts2bn0_z * t401 + t433 * t548);
+  const Real t570 = t464 * t563 - (t458 * t557 - (t437 * t548 + (Real(1.0) + rear_contacts2bn0_z * t405)));
+  const Real t576 = t479 * t570 - (t476 * t563 - (t461 * t557 - (rear_contacts2bn0_z * t408 + t440 * t548)));
+  const Real t579 = t87 * t331 - (q0r2_y * t72 - q0r2_x * t85);
+  const Real t588 = t372 * t579 - (t87 * t351 - (t72 * t76 - q0r2_x * t70));
+  const Real t597 = t411 * t588 - (t396 * t579 - (t87 * t357 + (q0r2_y * t70 - t76 * t85)));
+  const Real t605 = t443 * t597 - (t433 * t588 - (t401 * t579 - (Real(1.0) + t87 * t362)));
+  const Real t612 = t464 * t605 - (t458 * t597 - (t437 * t588 + (t87 * t366 - t405 * t579)));
+  const Real t619 = t479 * t612 - (t476 * t605 - (t461 * t597 - (t440 * t588 + (t87 * t369 - t408 * t579))));
+  const Real t627 = front_contacts1bm_z * t331 + (front_contacts1bn3p_x * t321 + (front_contactbx2p_x * q0r0_y
       + (front_contacts1bn0_z - front_contactbx3_x * q0r0_x)));
-  const Real t644 = t378 * t633 - (front_contacts1bm_z * t357 + (front_contacts1bn3p_x * t331 -
+  const Real t638 = t372 * t627 - (front_contacts1bm_z * t351 + (front_contacts1bn3p_x * t325 -
       (front_contactbx2p_x * q0r0_z + (front_contacts1bn0_y + front_contactbx2p_z * q0r0_x))));
-  const Real t655 = t417 * t644 - (t402 * t633 - (front_contacts1bm_z * t363 + (front_contacts1bn3p_x * t334 -
+  const Real t649 = t411 * t638 - (t396 * t627 - (front_contacts1bm_z * t357 + (front_contacts1bn3p_x * t328 -
       (front_contactbx3_x * q0r0_z + (front_contacts1bn0_x + front_contactbx2p_z * q0r0_y)))));
-  const Real t662 = t449 * t655 - (t439 * t644 + (front_contacts1bm_z * t368 - t407 * t633));
-  const Real t669 = t470 * t662 - (t464 * t655 - (t443 * t644 + (front_contacts1bm_z * t372 - t411 * t633)));
-  const Real t677 = t485 * t669 - (t482 * t662 - (t467 * t655 - (t446 * t644 - (t414 * t633 - (Real(1.0) +
-      front_contacts1bm_z * t375)))));
-  const Real t685 = front_contacts2bm_z * t337 + (front_contacts2bn3p_x * t327 - (front_contactbx2p_x * q0r1_y
+  const Real t656 = t443 * t649 - (t433 * t638 + (front_contacts1bm_z * t362 - t401 * t627));
+  const Real t663 = t464 * t656 - (t458 * t649 - (t437 * t638 + (front_contacts1bm_z * t366 - t405 * t627)));
+  const Real t671 = t479 * t663 - (t476 * t656 - (t461 * t649 - (t440 * t638 - (t408 * t627 - (Real(1.0) +
+      front_contacts1bm_z * t369)))));
+  const Real t679 = front_contacts2bm_z * t331 + (front_contacts2bn3p_x * t321 - (front_contactbx2p_x * q0r1_y
       + (front_contacts2bn0_z + front_contactbx3_x * q0r1_x)));
-  const Real t696 = t378 * t685 - (front_contacts2bm_z * t357 + (front_contacts2bn3p_x * t331 -
+  const Real t690 = t372 * t679 - (front_contacts2bm_z * t351 + (front_contacts2bn3p_x * t325 -
       (front_contactbx2p_x * q0r1_z + (front_contacts2bn0_y + front_contactbx2p_z * q0r1_x))));
-  const Real t707 = t417 * t696 - (t402 * t685 - (front_contacts2bm_z * t363 + (front_contacts2bn3p_x * t334 -
+  const Real t701 = t411 * t690 - (t396 * t679 - (front_contacts2bm_z * t357 + (front_contacts2bn3p_x * t328 -
       (front_contactbx3_x * q0r1_z - (front_contacts2bn0_x + front_contactbx2p_z * q0r1_y)))));
-  const Real t714 = t449 * t707 - (t439 * t696 + (front_contacts2bm_z * t368 - t407 * t685));
-  const Real t722 = t470 * t714 - (t464 * t707 - (t443 * t696 - (t411 * t685 - (Real(1.0) +
-      front_contacts2bm_z * t372))));
-  const Real t729 = t485 * t722 - (t482 * t714 - (t467 * t707 - (t446 * t696 + (front_contacts2bm_z * t375 -
-      t414 * t685))));
-  const Real t742 = t493 * t552;
-  const Real t743 = t484 * t545;
-  const Real t744 = t469 * t539;
-  const Real t745 = t448 * t533;
-  const Real t746 = t416 * t524;
-  const Real t747 = rear_contacts1bn0_z * t377;
-  const Real t758 = t83 * t747 - (t495 * t746 - (t503 * t745 - (t510 * t744 + (t522 * t742 - t516 * t743))));
-  const Real t768 = t493 * t582;
-  const Real t769 = t484 * t576;
-  const Real t770 = t469 * t569;
-  const Real t771 = t448 * t563;
-  const Real t772 = t416 * t554;
-  const Real t773 = rear_contacts2bn0_z * t377;
-  const Real t774 = rear_contacts2bn0_y * Real(8.333333333333334);
-  const Real t785 = t83 * t773 + (t495 * t772 - (t503 * t771 - (t510 * t770 + (t522 * t768 - t516 * t769))));
-  const Real t800 = t493 * t625;
-  const Real t801 = t484 * t618;
-  const Real t802 = t469 * t611;
-  const Real t803 = t448 * t603;
-  const Real t804 = t416 * t594;
-  const Real t805 = t377 * t585;
-  const Real t816 = t83 * t805 - (t495 * t804 - (t503 * t803 - (t510 * t802 + (t522 * t800 - t516 * t801))));
-  const Real t837 = t493 * t677;
-  const Real t838 = t484 * t669;
-  const Real t839 = t469 * t662;
-  const Real t840 = t448 * t655;
-  const Real t841 = t416 * t644;
-  const Real t842 = t377 * t633;
-  const Real t843 = front_contacts1bm_z * model.c29;
-  const Real t854 = t83 * t842 - (t495 * t841 - (t503 * t840 - (t510 * t839 + (t522 * t837 - t516 * t838))));
-  const Real t883 = t493 * t729;
-  const Real t884 = t484 * t722;
-  const Real t885 = t469 * t714;
-  const Real t886 = t448 * t707;
-  const Real t887 = t416 * t696;
-  const Real t888 = t377 * t685;
-  const Real t889 = front_contacts2bm_z * model.c29;
-  const Real t890 = front_contacts2bn3p_x * Real(3.571428571428571);
-  const Real t901 = t83 * t888 - (t495 * t887 - (t503 * t886 - (t510 * t885 + (t522 * t883 - t516 * t884))));
-  const Real t944 = Real(1.0) / (t83 * (t83 * t377) - (t495 * (t416 * t495) - (t503 * (t448 * t503) - (t510 *
-      (t469 * t510) + (t522 * (t493 * t522) - t516 * (t484 * t516))))) + Real(1.8087085566416913e-12));
-  const Real t945 = t758 * t944;
-  const Real t956 = t785 * t944;
-  const Real t964 = t758 * t956 + (rear_contacts1bn0_y * t774 - (rear_contacts1bn0_z * t773 + (t524 * t772 -
-      (t533 * t771 - (t539 * t770 + (t552 * t768 - t545 * t769))))));
-  const Real t966 = t816 * t944;
-  const Real t973 = t758 * t966 - (rear_contacts1bn0_z * t805 - (t524 * t804 - (t533 * t803 - (t539 * t802 +
-      (t552 * t800 - t545 * t801)))));
-  const Real t976 = t854 * t944;
-  const Real t983 = t758 * t976 - (rear_contacts1bn0_z * t842 - (t524 * t841 - (t533 * t840 - (t539 * t839 +
-      (t552 * t837 - t545 * t838)))));
-  const Real t987 = t901 * t944;
-  const Real t994 = t758 * t987 - (rear_contacts1bn0_z * t888 - (t524 * t887 - (t533 * t886 - (t539 * t885 +
-      (t552 * t883 - t545 * t884)))));
-  const Real t999 = Real(1.0) / (t758 * t945 - (rear_contacts1bn0_y * rear_contacts1bn0_y *
-      Real(8.333333333333334) + (rear_contacts1bn0_z * t747 - (t524 * t746 - (t533 * t745 - (t539 * t744 +
-      (t552 * t742 - t545 * t743)))))) - Real(7.806783314072456e-11));
-  const Real t1000 = t964 * t999;
-  const Real t1012 = t973 * t999;
-  const Real t1020 = t964 * t1012 - (t785 * t966 - (rear_contacts2bn0_z * t805 + (t554 * t804 - (t563 * t803 -
-      (t569 * t802 + (t582 * t800 - t576 * t801))))));
-  const Real t1022 = t983 * t999;
-  const Real t1030 = t964 * t1022 - (t785 * t976 - (rear_contacts2bn0_z * t842 + (t554 * t841 - (t563 * t840 -
-      (t569 * t839 + (t582 * t837 - t576 * t838))))));
-  const Real t1033 = t994 * t999;
-  const Real t1041 = t964 * t1033 - (t785 * t987 - (rear_contacts2bn0_z * t888 + (t554 * t887 - (t563 * t886 -
-      (t569 * t885 + (t582 * t883 - t576 * t884))))));
-  const Real t1045 = Real(1.0) / (t964 * t1000 - (t785 * t956 - (rear_contacts2bn0_y * t774 +
-      (rear_contacts2bn0_z * t773 - (t554 * t772 - (t563 * t771 - (t569 * t770 + (t582 * t768 - t576 *
-      t769))))))) + Real(8.816994788327498e-12));
-  const Real t1046 = t1020 * t1045;
-  const Real t1059 = t1030 * t1045;
-  const Real t1069 = t1020 * t1059 - (t973 * t1022 - (t816 * t976 + (t92 * t843 - (t585 * t842 - (t594 * t841
-      - (t603 * t840 - (t611 * t839 + (t625 * t837 - t618 * t838))))))));
-  const Real t1071 = t1041 * t1045;
-  const Real t1081 = t1020 * t1071 - (t973 * t1033 - (t816 * t987 + (t92 * t889 - (t585 * t888 - (t594 * t887
-      - (t603 * t886 - (t611 * t885 + (t625 * t883 - t618 * t884))))))));
-  const Real t1084 = Real(1.0) / (t1020 * t1046 - (t973 * t1012 - (t816 * t966 + (model.c29 * (t92 * t92) -
-      (t585 * t805 - (t594 * t804 - (t603 * t803 - (t611 * t802 + (t625 * t800 - t618 * t801)))))))) -
+  const Real t708 = t443 * t701 - (t433 * t690 + (front_contacts2bm_z * t362 - t401 * t679));
+  const Real t716 = t464 * t708 - (t458 * t701 - (t437 * t690 - (t405 * t679 - (Real(1.0) +
+      front_contacts2bm_z * t366))));
+  const Real t723 = t479 * t716 - (t476 * t708 - (t461 * t701 - (t440 * t690 + (front_contacts2bm_z * t369 -
+      t408 * t679))));
+  const Real t736 = t487 * t546;
+  const Real t737 = t478 * t539;
+  const Real t738 = t463 * t533;
+  const Real t739 = t442 * t527;
+  const Real t740 = t410 * t518;
+  const Real t741 = rear_contacts1bn0_z * t371;
+  const Real t752 = t91 * t741 - (t489 * t740 - (t497 * t739 - (t504 * t738 + (t516 * t736 - t510 * t737))));
+  const Real t762 = t487 * t576;
+  const Real t763 = t478 * t570;
+  const Real t764 = t463 * t563;
+  const Real t765 = t442 * t557;
+  const Real t766 = t410 * t548;
+  const Real t767 = rear_contacts2bn0_z * t371;
+  const Real t768 = rear_contacts2bn0_y * Real(8.333333333333334);
+  const Real t779 = t91 * t767 + (t489 * t766 - (t497 * t765 - (t504 * t764 + (t516 * t762 - t510 * t763))));
+  const Real t794 = t487 * t619;
+  const Real t795 = t478 * t612;
+  const Real t796 = t463 * t605;
+  const Real t797 = t442 * t597;
+  const Real t798 = t410 * t588;
+  const Real t799 = t371 * t579;
+  const Real t810 = t91 * t799 - (t489 * t798 - (t497 * t797 - (t504 * t796 + (t516 * t794 - t510 * t795))));
+  const Real t831 = t487 * t671;
+  const Real t832 = t478 * t663;
+  const Real t833 = t463 * t656;
+  const Real t834 = t442 * t649;
+  const Real t835 = t410 * t638;
+  const Real t836 = t371 * t627;
+  const Real t837 = front_contacts1bm_z * model.c29;
+  const Real t848 = t91 * t836 - (t489 * t835 - (t497 * t834 - (t504 * t833 + (t516 * t831 - t510 * t832))));
+  const Real t877 = t487 * t723;
+  const Real t878 = t478 * t716;
+  const Real t879 = t463 * t708;
+  const Real t880 = t442 * t701;
+  const Real t881 = t410 * t690;
+  const Real t882 = t371 * t679;
+  const Real t883 = front_contacts2bm_z * model.c29;
+  const Real t884 = front_contacts2bn3p_x * Real(3.571428571428571);
+  const Real t895 = t91 * t882 - (t489 * t881 - (t497 * t880 - (t504 * t879 + (t516 * t877 - t510 * t878))));
+  const Real t938 = Real(1.0) / (t91 * (t91 * t371) - (t489 * (t410 * t489) - (t497 * (t442 * t497) - (t504 *
+      (t463 * t504) + (t516 * (t487 * t516) - t510 * (t478 * t510))))) + Real(1.8087085566416913e-12));
+  const Real t939 = t752 * t938;
+  const Real t950 = t779 * t938;
+  const Real t958 = t752 * t950 + (rear_contacts1bn0_y * t768 - (rear_contacts1bn0_z * t767 + (t518 * t766 -
+      (t527 * t765 - (t533 * t764 + (t546 * t762 - t539 * t763))))));
+  const Real t960 = t810 * t938;
+  const Real t967 = t752 * t960 - (rear_contacts1bn0_z * t799 - (t518 * t798 - (t527 * t797 - (t533 * t796 +
+      (t546 * t794 - t539 * t795)))));
+  const Real t970 = t848 * t938;
+  const Real t977 = t752 * t970 - (rear_contacts1bn0_z * t836 - (t518 * t835 - (t527 * t834 - (t533 * t833 +
+      (t546 * t831 - t539 * t832)))));
+  const Real t981 = t895 * t938;
+  const Real t988 = t752 * t981 - (rear_contacts1bn0_z * t882 - (t518 * t881 - (t527 * t880 - (t533 * t879 +
+      (t546 * t877 - t539 * t878)))));
+  const Real t993 = Real(1.0) / (t752 * t939 - (rear_contacts1bn0_y * rear_contacts1bn0_y *
+      Real(8.333333333333334) + (rear_contacts1bn0_z * t741 - (t518 * t740 - (t527 * t739 - (t533 * t738 +
+      (t546 * t736 - t539 * t737)))))) - Real(7.806783314072456e-11));
+  const Real t994 = t958 * t993;
+  const Real t1006 = t967 * t993;
+  const Real t1014 = t958 * t1006 - (t779 * t960 - (rear_contacts2bn0_z * t799 + (t548 * t798 - (t557 * t797 -
+      (t563 * t796 + (t576 * t794 - t570 * t795))))));
+  const Real t1016 = t977 * t993;
+  const Real t1024 = t958 * t1016 - (t779 * t970 - (rear_contacts2bn0_z * t836 + (t548 * t835 - (t557 * t834 -
+      (t563 * t833 + (t576 * t831 - t570 * t832))))));
+  const Real t1027 = t988 * t993;
+  const Real t1035 = t958 * t1027 - (t779 * t981 - (rear_contacts2bn0_z * t882 + (t548 * t881 - (t557 * t880 -
+      (t563 * t879 + (t576 * t877 - t570 * t878))))));
+  const Real t1039 = Real(1.0) / (t958 * t994 - (t779 * t950 - (rear_contacts2bn0_y * t768 +
+      (rear_contacts2bn0_z * t767 - (t548 * t766 - (t557 * t765 - (t563 * t764 + (t576 * t762 - t570 *
+      t763))))))) + Real(8.816994788327498e-12));
+  const Real t1040 = t1014 * t1039;
+  const Real t1053 = t1024 * t1039;
+  const Real t1063 = t1014 * t1053 - (t967 * t1016 - (t810 * t970 + (t87 * t837 - (t579 * t836 - (t588 * t835
+      - (t597 * t834 - (t605 * t833 + (t619 * t831 - t612 * t832))))))));
+  const Real t1065 = t1035 * t1039;
+  const Real t1075 = t1014 * t1065 - (t967 * t1027 - (t810 * t981 + (t87 * t883 - (t579 * t882 - (t588 * t881
+      - (t597 * t880 - (t605 * t879 + (t619 * t877 - t612 * t878))))))));
+  const Real t1078 = Real(1.0) / (t1014 * t1040 - (t967 * t1006 - (t810 * t960 + (model.c29 * (t87 * t87) -
+      (t579 * t799 - (t588 * t798 - (t597 * t797 - (t605 * t796 + (t619 * t794 - t612 * t795)))))))) -
       Real(3.988016169236579e-12));
-  const Real t1085 = t1069 * t1084;
-  const Real t1100 = t1081 * t1084;
-  const Real t1112 = t1069 * t1100 - (t1030 * t1071 - (t983 * t1033 - (t854 * t987 - (front_contacts1bn3p_x *
-      t890 - (front_contacts1bm_z * t889 - (t633 * t888 - (t644 * t887 - (t655 * t886 - (t662 * t885 + (t677 *
-      t883 - t669 * t884))))))))));
-  const Real t1114 = Real(1.0) / (t1069 * t1085 - (t1030 * t1059 - (t983 * t1022 - (t854 * t976 -
-      (Real(3.571428571428571) * (front_contacts1bn3p_x * front_contacts1bn3p_x) - (front_contacts1bm_z * t843
-      - (t633 * t842 - (t644 * t841 - (t655 * t840 - (t662 * t839 + (t677 * t837 - t669 * t838)))))))))) +
+  const Real t1079 = t1063 * t1078;
+  const Real t1094 = t1075 * t1078;
+  const Real t1106 = t1063 * t1094 - (t1024 * t1065 - (t977 * t1027 - (t848 * t981 - (front_contacts1bn3p_x *
+      t884 - (front_contacts1bm_z * t883 - (t627 * t882 - (t638 * t881 - (t649 * t880 - (t656 * t879 + (t671 *
+      t877 - t663 * t878))))))))));
+  const Real t1108 = Real(1.0) / (t1063 * t1079 - (t1024 * t1053 - (t977 * t1016 - (t848 * t970 -
+      (Real(3.571428571428571) * (front_contacts1bn3p_x * front_contacts1bn3p_x) - (front_contacts1bm_z * t837
+      - (t627 * t836 - (t638 * t835 - (t649 * t834 - (t656 * t833 + (t671 * t831 - t663 * t832)))))))))) +
       Real(4.6476630875276904e-11));
-  const Real t1115 = t1112 * t1114;
-  const Real t1131 = Real(1.0) / (t1112 * t1115 - (t1081 * t1100 - (t1041 * t1071 - (t994 * t1033 - (t901 *
-      t987 - (front_contacts2bn3p_x * t890 - (front_contacts2bm_z * t889 - (t685 * t888 - (t696 * t887 - (t707
-      * t886 - (t714 * t885 + (t729 * t883 - t722 * t884))))))))))) - Real(2.7054786900152528e-11));
-  const Real t1136 = t50 * state.z[5] + (t48 * state.z[3] + t49 * state.z[4]);
-  const Real t1141 = t49 * state.z[5] + (t47 * state.z[3] - t50 * state.z[4]);
-  const Real t1146 = t48 * state.z[5] - (t50 * state.z[3] + t47 * state.z[4]);
-  const Real t1151 = t47 * state.z[5] - (t49 * state.z[3] - t48 * state.z[4]);
-  const Real t1173 = state.z[4] + c2 * state.z[8];
-  const Real t1174 = Real(2.0) * state.y[3];
-  const Real t1185 = q0d1 * t1146 - q0d2 * t1141;
-  const Real t1187 = t1141 * t1174 - q0d1 * t1136;
-  const Real t1189 = t1146 * t1174 + q0d2 * t1136;
-  const Real t1192 = q0d3 * t1146 - q0d2 * t1151;
-  const Real t1194 = q0d3 * t1141 + q0d1 * t1151;
-  const Real t1196 = q0d3 * t1136 - t1151 * t1174;
-  const Real t1197 = t1185 - t1196;
-  const Real t1198 = t1185 + t1196;
-  const Real t1200 = rear_contactc_z * state.z[5];
-  const Real t1203 = state.z[4] + state.z[6];
-  const Real t1204 = t51 * t53;
-  const Real t1205 = t51 * model.rear_radius;
-  const Real t1209 = t52 * t1205 - t52 * rear_contactc_z * t1204;
-  const Real t1212 = rear_contactc_z * state.z[3];
-  const Real t1222 = q0r2_y * t1203 - (q0r2_z * state.z[5] - q0r2_x * state.z[3]);
-  const Real t1224 = model.rear_radius * state.z[4];
-  const Real t1225 = model.rear_radius * state.z[3];
-  const Real t1228 = rear_contactc_z * t1203 + t59 * t1222;
-  const Real t1237 = q0r0_z * state.z[4] - q0r0_y * state.z[5];
-  const Real t1244 = Real(0.9510565162951535) * state.z[7] + (state.z[5] + front_contactbd2p_z * state.z[8]);
-  const Real t1251 = t70 * (t55 * front_contactc_z) - (t72 + t72);
-  const Real t1255 = front_contactbd2p_x * state.z[8] - (state.z[3] + Real(0.3090169943749474) * state.z[7]);
-  const Real t1263 = q0r2_y * t1173 - (q0r2_z * t1244 + q0r2_x * t1255);
-  const Real t1265 = t72 * t1263;
-  const Real t1274 = q0r1_x * state.z[5] - q0r1_z * state.z[3];
-  const Real t1283 = front_contactc_z * t1173 - c2 * t1265;
-  const Real t1286 = c2 * front_contacts2bf2_y + s2 * q0r1_y;
-  const Real t1294 = front_contactbx3_x * state.z[7];
-  const Real t1295 = Real(0.9510565162951535) * t1294;
-  const Real t1297 = Real(0.3090169943749474) * t1294;
-  const Real t1299 = t1295 + (front_contactbx2p_z * state.z[4] + front_contactbx3_x * state.z[5]);
-  const Real t1301 = front_contactbx3_y * state.z[7] + (front_contactbx2p_x * state.z[5] + front_contactbx2p_z
-      * state.z[3]);
-  const Real t1303 = t1297 - (front_contactbx2p_x * state.z[4] - front_contactbx3_x * state.z[3]);
-  const Real t1309 = front_contactbd2p_x * t1265 - front_contactc_z * t1255;
-  const Real t1314 = t1189 + t1194;
-  const Real t1315 = t1189 - t1194;
-  const Real t1317 = front_contactbd2p_z * t1265 - front_contactc_z * t1244;
-  const Real t1339 = t81 * state.z[7];
-  const Real t1345 = Real(0.9510565162951535) * (t1314 * t1339);
-  const Real t1366 = t1187 - t1192;
-  const Real t1369 = t1146 * (q0d2 + q0d2) - t1141 * (q0d1 + q0d1);
-  const Real t1382 = q0r2_x * state.z[4] - q0r2_y * state.z[3];
-  const Real t1384 = Real(0.3090169943749474) * (t1339 * t1382);
-  const Real t1389 = Real(2.0) * t58 + t1205 * (t52 * t53 * t1204);
-  const Real t1409 = t1187 + t1192;
-  const Real t1414 = c2 * t1366 + (front_contactbd2p_z * t1382 - (t69 * state.z[7] + front_contactbd2p_x *
-      t1314));
+  const Real t1109 = t1106 * t1108;
+  const Real t1125 = Real(1.0) / (t1106 * t1109 - (t1075 * t1094 - (t1035 * t1065 - (t988 * t1027 - (t895 *
+      t981 - (front_contacts2bn3p_x * t884 - (front_contacts2bm_z * t883 - (t679 * t882 - (t690 * t881 - (t701
+      * t880 - (t708 * t879 + (t723 * t877 - t716 * t878))))))))))) - Real(2.7054786900152528e-11));
+  const Real t1130 = t50 * state.z[5] + (t48 * state.z[3] + t49 * state.z[4]);
+  const Real t1135 = t49 * state.z[5] + (t47 * state.z[3] - t50 * state.z[4]);
+  const Real t1140 = t48 * state.z[5] - (t50 * state.z[3] + t47 * state.z[4]);
+  const Real t1145 = t47 * state.z[5] - (t49 * state.z[3] - t48 * state.z[4]);
+  const Real t1147 = Real(2.0) * state.y[3];
+  const Real t1149 = c2 * Real(0.9510565162951535);
+  const Real t1150 = c2 * Real(0.3090169943749474);
+  const Real t1171 = state.z[4] + c2 * state.z[8];
+  const Real t1173 = state.z[3] + Real(0.3090169943749474) * state.z[7];
+  const Real t1174 = front_contactbd2p_x * state.z[8] - t1173;
+  const Real t1183 = q0d3 * t1130 - t1145 * t1147;
+  const Real t1186 = q0d2 * t1145 - q0d3 * t1140;
+  const Real t1188 = q0d2 * t1130 + t1140 * t1147;
+  const Real t1192 = q0d1 * t1130 - t1135 * t1147;
+  const Real t1194 = q0d1 * t1145 + q0d3 * t1135;
+  const Real t1195 = t1186 - t1192;
+  const Real t1197 = q0d1 * t1140 - q0d2 * t1135;
+  const Real t1198 = t1140 * (q0d2 + q0d2) - t1135 * (q0d1 + q0d1);
+  const Real t1199 = t1188 + t1194;
+  const Real t1200 = t1188 - t1194;
+  const Real t1201 = front_contactbx3_x * Real(0.3090169943749474);
+  const Real t1208 = q0r0_z * state.z[4] - q0r0_y * state.z[5];
+  const Real t1214 = front_contactbx3_x * Real(0.9510565162951535);
+  const Real t1222 = q0r1_x * state.z[5] - q0r1_z * state.z[3];
+  const Real t1225 = state.z[7] * t1214 + (front_contactbx2p_z * state.z[4] + front_contactbx3_x *
+      state.z[5]);
+  const Real t1227 = front_contactbx2p_x * state.z[4] - front_contactbx3_x * t1173;
+  const Real t1232 = rear_contactc_z * state.z[5];
+  const Real t1237 = Real(0.9510565162951535) * state.z[7] + (state.z[5] + front_contactbd2p_z * state.z[8]);
+  const Real t1249 = q0r2_z * t1237 + (q0r2_x * t1174 - q0r2_y * t1171);
+  const Real t1255 = front_contactbx3_y * state.z[7] + (front_contactbx2p_z * state.z[3] + front_contactbx2p_x
+      * state.z[5]);
+  const Real t1259 = t51 * t88;
+  const Real t1261 = t51 + t88 * t1259;
+  const Real t1265 = t89 + (t89 - rear_contactc_z * t1259);
+  const Real t1268 = rear_contactc_z * state.z[3];
+  const Real t1271 = model.rear_radius * state.z[3];
+  const Real t1272 = state.z[4] + state.z[6];
+  const Real t1280 = model.rear_radius * state.z[4];
+  const Real t1289 = q0r2_y * t1272 - (q0r2_z * state.z[5] - q0r2_x * state.z[3]);
+  const Real t1294 = rear_contactc_z * t1272 + t89 * t1289;
+  const Real t1295 = t1186 + t1192;
+  const Real t1314 = Real(0.9510565162951535) * (t1199 * (t85 * state.z[7]));
+  const Real t1317 = Real(2.0) * t56;
+  const Real t1333 = t53 * t57;
+  const Real t1335 = t1317 + t52 * t54 * t1333;
+  const Real t1339 = t57 * t1249;
+  const Real t1367 = front_contactbd2p_x * t1199 + (t63 * state.z[7] - (front_contactbd2p_z * t1198 + c2 *
+      t1195));
+  const Real t1373 = front_contactbd2p_z * t1339 + front_contactc_z * t1237;
+  const Real t1378 = c2 * t1339 + front_contactc_z * t1171;
+  const Real t1380 = front_contactbd2p_x * t1339 + front_contactc_z * t1174;
+  const Real t1383 = t129 * t1333 - t52 * t1317;
+  const Real t1397 = model.rear_radius * t1195;
+  const Real t1401 = t1183 - t1197;
+  const Real t1402 = t1183 + t1197;
   const Real w2p_y = Real(0.3090169943749474) * state.z[5] - Real(0.9510565162951535) * state.z[3];
   const Real w2p_z = Real(0.3090169943749474) * state.z[3] + Real(0.9510565162951535) * state.z[5];
   const Real w2_z = state.z[7] + w2p_z;
@@ -2516,92 +2512,92 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real rf0_z = rf2p_z - (state.z[5] * ruh0 - h2c_z * ruw0);
   const Real tau_2_0 = input.u[0] - (rdn3_y + (w2p_y * rKx2 - (h2b_y * ra2o_y + (state.z[4] * rKy2 - h2b_x *
       ra2_y))));
-  const Real t1608 = t337 * tau_2_0 - (t327 * rQp3 - (model.r_steer_x * rdf2_x - (Real(0.9510565162951535) *
+  const Real t1591 = t331 * tau_2_0 - (t321 * rQp3 - (model.r_steer_x * rdf2_x - (Real(0.9510565162951535) *
       rdn3_y + (Real(0.3090169943749474) * rn2_y + (rdn1_x - (h2c_x * rfallW_y - (h2b_x * rfallW_x +
       (state.z[3] * rSu0_y - state.z[4] * rSu0_x))))))));
-  const Real t1625 = t378 * t1608 - (t357 * tau_2_0 - (t331 * rQp3 - (model.r_steer_z * rf2p_x +
+  const Real t1608 = t372 * t1591 - (t351 * tau_2_0 - (t325 * rQp3 - (model.r_steer_z * rf2p_x +
       (model.r_steer_x * rf2p_z + (rn2b_x - (rKy2 * z2_2 - (S2b_yz * zz_2 - (h2c_z * rfallW_x - (h2c_x *
       rfallW_z - (state.z[3] * rSu0_z + state.z[5] * rSu0_x))))))))));
-  const Real t1641 = t417 * t1625 - (t402 * t1608 - (t363 * tau_2_0 - (t334 * rQp3 + (model.r_steer_z * rdf2_x
+  const Real t1624 = t411 * t1608 - (t396 * t1591 - (t357 * tau_2_0 - (t328 * rQp3 + (model.r_steer_z * rdf2_x
       + (Real(0.9510565162951535) * rn2_y - (Real(0.3090169943749474) * rdn3_y - (rdn1_y + (h2c_z * rfallW_y -
       (h2b_x * rfallW_z - (state.z[4] * rSu0_z + state.z[5] * rSu0_y))))))))));
-  const Real t1653 = t449 * t1641 - (t439 * t1625 - (t407 * t1608 - (t368 * tau_2_0 - (q0r2_z * rf0_z -
+  const Real t1636 = t443 * t1624 - (t433 * t1608 - (t401 * t1591 - (t362 * tau_2_0 - (q0r2_z * rf0_z -
       (q0r2_x * rf0_x - q0r2_y * rf0_y))))) + Real(922.1400000000001);
-  const Real t1663 = t470 * t1653 - (t464 * t1641 - (t443 * t1625 - (t411 * t1608 - (t372 * tau_2_0 - (q0r1_z
+  const Real t1646 = t464 * t1636 - (t458 * t1624 - (t437 * t1608 - (t405 * t1591 - (t366 * tau_2_0 - (q0r1_z
       * rf0_z + (q0r1_x * rf0_x + q0r1_y * rf0_y))))));
-  const Real t1674 = t493 * (t485 * t1663 - (t482 * t1653 - (t467 * t1641 - (t446 * t1625 - (t414 * t1608 -
-      (t375 * tau_2_0 - (q0r0_z * rf0_z + (q0r0_x * rf0_x - q0r0_y * rf0_y))))))));
-  const Real t1675 = t484 * t1663;
-  const Real t1676 = t469 * t1653;
-  const Real t1677 = t448 * t1641;
-  const Real t1678 = t416 * t1625;
-  const Real t1679 = t377 * t1608;
-  const Real t1680 = model.c29 * tau_2_0;
-  const Real t1681 = Real(3.571428571428571) * rQp3;
-  const Real t1734 = t1366 * (t1225 - t1366 * t1389) + (state.z[5] * (t59 * t1314) + (t83 * t1679 - (t495 *
-      t1678 - (t503 * t1677 - (t510 * t1676 - (t516 * t1675 - (t522 * t1674 + (state.z[3] * (t59 * t1369) +
-      t1224 * t1314))))))));
-  const Real t1749 = t945 * t1734 - (rear_contacts1bn0_z * t1679 - (t524 * t1678 - (t533 * t1677 - (t539 *
-      t1676 - (t545 * t1675 - (t552 * t1674 + (t1200 * t1409 + (t1228 * t1274 + (t1198 * t1212 + (t1366 *
-      (t1222 * (q0r1_y * t1389) - (t1209 * (q0r1_y * t1203 - (q0r1_x * state.z[3] + q0r1_z * state.z[5])) -
-      rear_contactc_y * t1203)) + (t1382 * (rear_contactc_y * state.z[5]) + (t1314 * (rear_contactc_y *
-      state.z[3]) + (t1197 * t1225 - t1224 * t1237)))))))))))));
-  const Real t1769 = t1000 * t1749 - (t956 * t1734 - (rear_contacts2bn0_z * t1679 + (t554 * t1678 - (t563 *
-      t1677 - (t569 * t1676 - (t576 * t1675 - (t582 * t1674 + (t1225 * t1274 - (t1198 * t1224 + (t1366 *
-      (t1209 * (q0r0_y * t1203 + (q0r0_z * state.z[5] + q0r0_x * state.z[3])) - (rear_contactc_x * t1203 +
-      t1222 * (rear_contacts2bn0_y + t52 * rear_contactc_x * t1204))) - (rear_contactc_x * state.z[5] * t1382
-      + (rear_contactc_x * state.z[3] * t1314 - (t1200 * t1315 + (t1197 * t1228 + t1212 * t1237))))))))))))));
-  const Real t1796 = state.z[7] * (front_contactbx3_y - s2 * t72) * (t1366 + t1366) - (state.z[5] * (t81 *
-      t1314 - t86 * t1366) + (t1345 - (t1046 * t1769 - (t1012 * t1749 - (t966 * t1734 + (t92 * t1680 - (t585 *
-      t1679 - (t594 * t1678 - (t603 * t1677 - (t611 * t1676 - (t618 * t1675 - (t625 * t1674 -
-      (model.front_radius * (t1414 * ((t55 + t54 * (t70 * (t55 * t56))) * t1414)) - (t1384 + (t1384 -
-      (state.z[4] * (t89 * t1314 + t86 * t1369) - (state.z[7] * (state.z[7] * (front_contactbd0p_z * t72 -
-      model.r_front_y * t69)) - (t1345 - state.z[3] * (t89 * t1366 + t81 * t1369)))))))))))))))))));
-  const Real t1824 = t1237 * (t1295 + t1299) + (t1085 * t1796 - (t1059 * t1769 - (t1022 * t1749 - (t976 *
-      t1734 + (front_contacts1bn3p_x * t1681 + (front_contacts1bm_z * t1680 - (t633 * t1679 - (t644 * t1678 -
-      (t655 * t1677 - (t662 * t1676 - (t669 * t1675 - (t677 * t1674 - (t1317 * t1409 - (t1274 * t1283 + (t1198
-      * t1309 - (t1414 * (t1263 * (t70 * (t55 * front_contactc_y) + t55 * t132) - t1251 * (q0r1_z * t1244 -
-      (q0r1_x * t1255 + q0r1_y * t1173))) - (front_contactc_y * t1173 * t1366 + (front_contactc_y * t1244 *
-      t1382 - ((q0r0_x * state.z[4] - q0r0_y * state.z[3]) * t1297 - (state.z[7] * (t1265 * t1286 -
-      (state.z[8] * (c2 * front_contacts1bn2_y + s2 * front_contacts1bn0_y) + (front_contactbx3_y * (q0r0_z *
-      state.z[3] - q0r0_x * state.z[5]) + state.z[7] * (front_contactbx3_y * front_contacts1bf2_y -
-      front_contactbx3_x * q0r0_y)))) - (t1255 * (front_contactc_y * t1314) - (t1197 * t1301 + t1303 *
-      t1315))))))))))))))))))))));
-  const Real t1857 = t1131 * (t1115 * t1824 - (t1100 * t1796 - (t1071 * t1769 - (t1033 * t1749 - (t987 * t1734
-      + (front_contacts2bn3p_x * t1681 + (front_contacts2bm_z * t1680 - (t685 * t1679 - (t696 * t1678 - (t707
-      * t1677 - (t714 * t1676 - (t722 * t1675 - (t729 * t1674 + (t1303 * t1409 + (t1274 * t1301 - (t1198 *
-      t1299 - (t1414 * ((t55 * t170 + t70 * (t55 * front_contactc_x)) * t1263 - t1251 * (q0r0_z * t1244 +
-      (q0r0_y * t1173 - q0r0_x * t1255))) - (front_contactc_x * t1173 * t1366 + (front_contactc_x * t1244 *
-      t1382 + ((q0r1_x * state.z[4] + q0r1_y * state.z[3]) * t1297 + ((q0r1_z * state.z[4] + q0r1_y *
-      state.z[5]) * t1295 + (state.z[7] * (model.r_front_y * (state.z[7] * t1286) + (s2 *
-      (front_contacts2bn0_y * state.z[8] - q0r0_y * t1265) - (c2 * (front_contacts2bn2_y * state.z[8] -
-      front_contacts1bf2_y * t1265) + front_contactbx3_y * t1274))) - (front_contactc_x * t1255 * t1314 +
-      (t1315 * t1317 - (t1197 * t1283 + t1237 * t1309)))))))))))))))))))))))));
-  const Real t1859 = t1114 * t1824 - t1115 * t1857;
-  const Real t1863 = t1100 * t1857 - (t1084 * t1796 - t1085 * t1859);
-  const Real t1869 = t1071 * t1857 + (t1059 * t1859 - (t1045 * t1769 + t1046 * t1863));
-  const Real t1877 = t1033 * t1857 + (t1022 * t1859 - (t1012 * t1863 + (t999 * t1749 + t1000 * t1869)));
-  const Real t1887 = t987 * t1857 + (t976 * t1859 - (t966 * t1863 + (t956 * t1869 + (t944 * t1734 + t945 *
-      t1877))));
-  const Real t1888 = Real(1.8087085566416913e-12) * t1887;
-  const Real t1895 = Real(7.806783314072456e-11) * t1877 - t945 * t1888;
-  const Real t1902 = t1000 * t1895 - (Real(8.816994788327498e-12) * t1869 - t956 * t1888);
-  const Real t1909 = t1046 * t1902 - (t1012 * t1895 - (Real(3.988016169236579e-12) * t1863 - t966 * t1888));
-  const Real t1916 = t1085 * t1909 - (t1059 * t1902 - (t1022 * t1895 + (Real(4.6476630875276904e-11) * t1859 +
-      t976 * t1888)));
-  const Real t1929 = t1131 * (t1115 * t1916 - (t1100 * t1909 - (t1071 * t1902 - (t1033 * t1895 +
-      (Real(2.7054786900152528e-11) * t1857 + t987 * t1888)))));
-  const Real t1931 = t1114 * t1916 - t1115 * t1929;
-  const Real t1935 = t1100 * t1929 - (t1084 * t1909 - t1085 * t1931);
-  const Real t1941 = t1071 * t1929 + (t1059 * t1931 - (t1045 * t1902 + t1046 * t1935));
-  const Real t1949 = t1033 * t1929 + (t1022 * t1931 - (t1012 * t1935 + (t999 * t1895 + t1000 * t1941)));
-  lambda[0] = t987 * t1929 + (t976 * t1931 - (t966 * t1935 + (t956 * t1941 + (t945 * t1949 - (t1887 + t944 *
-      t1888)))));
-  lambda[1] = -(t1877 + t1949);
-  lambda[2] = -(t1869 + t1941);
-  lambda[3] = -(t1863 + t1935);
-  lambda[4] = t1859 + t1931;
-  lambda[5] = -(t1857 + t1929);
+  const Real t1657 = t487 * (t479 * t1646 - (t476 * t1636 - (t461 * t1624 - (t440 * t1608 - (t408 * t1591 -
+      (t369 * tau_2_0 - (q0r0_z * rf0_z + (q0r0_x * rf0_x - q0r0_y * rf0_y))))))));
+  const Real t1658 = t478 * t1646;
+  const Real t1659 = t463 * t1636;
+  const Real t1660 = t442 * t1624;
+  const Real t1661 = t410 * t1608;
+  const Real t1662 = t371 * t1591;
+  const Real t1663 = model.c29 * tau_2_0;
+  const Real t1664 = Real(3.571428571428571) * rQp3;
+  const Real t1716 = t1199 * (t1280 - t89 * state.z[5]) - (t91 * t1662 - (t489 * t1661 - (t497 * t1660 - (t504
+      * t1659 - (t510 * t1658 - (t516 * t1657 + (state.z[3] * (t89 * t1198 - t1397) + t1195 * t1261 *
+      t1397)))))));
+  const Real t1731 = t939 * t1716 + (rear_contacts1bn0_z * t1662 - (t518 * t1661 - (t527 * t1660 - (t533 *
+      t1659 - (t539 * t1658 - (t546 * t1657 + (t1268 * t1402 - (t1232 * t1295 - (t1222 * t1294 - (t1208 *
+      t1280 + (t1271 * t1401 - (t1199 * (rear_contactc_y * state.z[3]) + (t1198 * (rear_contactc_y *
+      state.z[5]) + t1195 * (t102 * t1261 * t1289 - (t1265 * (q0r1_y * t1272 - (q0r1_z * state.z[5] + q0r1_x *
+      state.z[3])) - rear_contactc_y * t1272)))))))))))))));
+  const Real t1751 = t994 * t1731 - (t950 * t1716 + (rear_contacts2bn0_z * t1662 + (t548 * t1661 - (t557 *
+      t1660 - (t563 * t1659 - (t570 * t1658 - (t576 * t1657 - (t1200 * t1232 + (t1280 * t1402 - (t1222 * t1271
+      - (t1208 * t1268 - (t1294 * t1401 + (t1199 * (rear_contactc_x * state.z[3]) + (t1198 * (rear_contactc_x
+      * state.z[5]) + t1195 * (t112 * t1261 * t1289 - (t1265 * (q0r0_y * t1272 + (q0r0_z * state.z[5] + q0r0_x
+      * state.z[3])) - rear_contactc_x * t1272))))))))))))))));
+  const Real t1785 = t1195 * (t72 * state.z[5] + t70 * state.z[3]) - (t1199 * (t85 * state.z[5] + t70 *
+      state.z[4]) - (t1198 * (t85 * state.z[3] - t72 * state.z[4]) + (state.z[7] * (t85 * t1198 *
+      Real(0.6180339887498948) + (state.z[7] * (front_contactbd0p_z * t57 - model.r_front_y * t63) + Real(2.0)
+      * (t1195 * (front_contactbx3_y - s2 * t57)))) - (t1040 * t1751 - (t1006 * t1731 - (t960 * t1716 - (t87 *
+      t1663 - (t579 * t1662 - (t588 * t1661 - (t597 * t1660 - (t605 * t1659 - (t612 * t1658 - (t619 * t1657 -
+      (t1367 * (t1335 * t1367) + (t1314 + t1314)))))))))))))));
+  const Real t1810 = t1079 * t1785 + (t1053 * t1751 - (t1016 * t1731 - (t970 * t1716 - (front_contacts1bn3p_x
+      * t1664 + (front_contacts1bm_z * t1663 - (t627 * t1662 - (t638 * t1661 - (t649 * t1660 - (t656 * t1659 -
+      (t663 * t1658 - (t671 * t1657 - (t1200 * t1227 + (t1380 * t1402 + (t1295 * t1373 - (t1222 * t1378 -
+      (t1208 * t1225 + (t1255 * t1401 + (t1367 * (t1249 * (front_contactbd0p_y * t1335) - t1383 * (q0r1_y *
+      t1171 - (q0r1_z * t1237 - q0r1_x * t1174))) + (state.z[7] * (t1208 * t1214 - (t1339 * (q0r1_x * t1149 -
+      (s2 * q0r1_y + q0r1_z * t1150)) + ((q0r0_y * state.z[3] - q0r0_x * state.z[4]) * t1201 - (state.z[7] *
+      (front_contactbx3_y * front_contacts1bf2_y - front_contactbx3_x * q0r0_y) + (state.z[8] * (c2 *
+      front_contacts1bn2_y + s2 * front_contacts1bn0_y) + front_contactbx3_y * (q0r0_z * state.z[3] - q0r0_x *
+      state.z[5])))))) + (front_contactc_y * t1174 * t1199 - (t1198 * (front_contactc_y * t1237) + t1195 *
+      (front_contactc_y * t1171))))))))))))))))))))));
+  const Real t1841 = t1125 * (t1109 * t1810 - (t1094 * t1785 + (t1065 * t1751 - (t1027 * t1731 - (t981 * t1716
+      - (front_contacts2bn3p_x * t1664 + (front_contacts2bm_z * t1663 - (t679 * t1662 - (t690 * t1661 - (t701
+      * t1660 - (t708 * t1659 - (t716 * t1658 - (t723 * t1657 - (t1200 * t1373 + (t1225 * t1402 - (t1227 *
+      t1295 + (t1222 * t1255 + (t1208 * t1380 + (t1378 * t1401 + (t1367 * (t1249 * (front_contactbd0p_x *
+      t1335) + t1383 * (q0r0_z * t1237 + (q0r0_y * t1171 - q0r0_x * t1174))) - (state.z[7] * (t1214 * (q0r1_y
+      * state.z[5] + q0r1_z * state.z[4]) + (t1339 * (q0r0_x * t1149 + (s2 * q0r0_y - q0r0_z * t1150)) +
+      (t1201 * (q0r1_y * state.z[3] + q0r1_x * state.z[4]) + (state.z[7] * (front_contactbx3_x * q0r1_y) -
+      (state.z[8] * (c2 * front_contacts2bn2_y - s2 * front_contacts2bn0_y) - front_contactbx3_y *
+      (front_contacts2bf2_y * state.z[7] - t1222)))))) + (t1171 * (front_contactc_x * t1195) - (t1199 *
+      (front_contactc_x * t1174) - t1237 * (front_contactc_x * t1198))))))))))))))))))))))));
+  const Real t1843 = t1108 * t1810 - t1109 * t1841;
+  const Real t1847 = t1094 * t1841 - (t1078 * t1785 - t1079 * t1843);
+  const Real t1853 = t1065 * t1841 + (t1053 * t1843 + (t1039 * t1751 - t1040 * t1847));
+  const Real t1861 = t1027 * t1841 + (t1016 * t1843 - (t1006 * t1847 - (t993 * t1731 - t994 * t1853)));
+  const Real t1871 = t981 * t1841 + (t970 * t1843 - (t960 * t1847 + (t950 * t1853 - (t938 * t1716 - t939 *
+      t1861))));
+  const Real t1872 = Real(1.8087085566416913e-12) * t1871;
+  const Real t1879 = Real(7.806783314072456e-11) * t1861 - t939 * t1872;
+  const Real t1886 = t994 * t1879 - (Real(8.816994788327498e-12) * t1853 - t950 * t1872);
+  const Real t1893 = t1040 * t1886 - (t1006 * t1879 - (Real(3.988016169236579e-12) * t1847 - t960 * t1872));
+  const Real t1900 = t1079 * t1893 - (t1053 * t1886 - (t1016 * t1879 + (Real(4.6476630875276904e-11) * t1843 +
+      t970 * t1872)));
+  const Real t1913 = t1125 * (t1109 * t1900 - (t1094 * t1893 - (t1065 * t1886 - (t1027 * t1879 +
+      (Real(2.7054786900152528e-11) * t1841 + t981 * t1872)))));
+  const Real t1915 = t1108 * t1900 - t1109 * t1913;
+  const Real t1919 = t1094 * t1913 - (t1078 * t1893 - t1079 * t1915);
+  const Real t1925 = t1065 * t1913 + (t1053 * t1915 - (t1039 * t1886 + t1040 * t1919));
+  const Real t1933 = t1027 * t1913 + (t1016 * t1915 - (t1006 * t1919 + (t993 * t1879 + t994 * t1925)));
+  lambda[0] = t981 * t1913 + (t970 * t1915 - (t960 * t1919 + (t950 * t1925 + (t939 * t1933 - (t1871 + t938 *
+      t1872)))));
+  lambda[1] = -(t1861 + t1933);
+  lambda[2] = -(t1853 + t1925);
+  lambda[3] = -(t1847 + t1919);
+  lambda[4] = t1843 + t1915;
+  lambda[5] = -(t1841 + t1913);
 }
 
 // `input` may be a function that gives the Input at the state of a stage.

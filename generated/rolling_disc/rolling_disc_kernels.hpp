@@ -239,43 +239,42 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t141 = t19 * state.z[4] - (t16 * state.z[3] + t18 * state.z[5]);
   const Real t146 = t16 * state.z[4] + (t19 * state.z[3] - t17 * state.z[5]);
   const Real t151 = t17 * state.z[4] - (t18 * state.z[3] - t16 * state.z[5]);
-  const Real t156 = Real(2.0) * state.y[3];
-  const Real t164 = t141 * (q0d1 + q0d1);
-  const Real t169 = Real(2.0) * t146;
-  const Real t179 = q0d1 * t136 + t141 * t156 - (q0d3 * t146 + q0d2 * t151);
-  const Real t189 = q0r2_y * state.z[4] - (q0r2_z * state.z[5] + q0r2_x * state.z[3]);
-  const Real t192 = q0r2_y * t21;
-  const Real t214 = t179 * (model.radius * (t20 * (t21 * t22 * t192)) + Real(2.0) * t24);
-  const Real t217 = t179 * (t25 + t25 + t21 * groundc_z * t192);
+  const Real t157 = Real(2.0) * state.y[3];
+  const Real t161 = t141 * (q0d1 + q0d1);
+  const Real t183 = q0d2 * t151 + q0d3 * t146 - (t141 * t157 + q0d1 * t136);
+  const Real t191 = t20 * t22;
+  const Real t200 = q0r2_x * state.z[3] + (q0r2_z * state.z[5] - q0r2_y * state.z[4]);
+  const Real t219 = t183 * (t25 + t25 + t21 * groundc_z * t191);
   const Real rww00 = state.z[4] * state.z[5];
   const Real rww02 = state.z[3] * state.z[4];
   const Real rdn0_x = rww00 * model.rdS00;
   const Real rdn0_z = rww02 * model.rdS00;
-  const Real t230 = model.c6 * rdn0_x;
-  const Real t231 = model.c6 * rdn0_z;
-  const Real t243 = state.z[5] * (t25 * (q0d3 * t141 - (q0d2 * t136 - (t146 * t156 - q0d1 * t151)))) + ((t164
-      - q0d2 * t169) * (t25 * state.z[3]) + (t179 * t214 + (t37 * t230 - t38 * t231))) - model.c12;
-  const Real t248 = (q0r1_y * state.z[4] - (q0r1_z * state.z[5] + q0r1_x * state.z[3])) * t217 - (t189 * (t25
-      * (t164 - t151 * (q0d3 + q0d3)) + q0r1_y * t214) - (grounds1bn0_x * t230 - (grounds1bn0_z * t231 + t109
-      * t243)));
-  const Real t258 = t131 * ((q0r0_x * state.z[3] - (q0r0_y * state.z[4] + q0r0_z * state.z[5])) * t217 - (t189
-      * (t25 * (q0d3 * t136 - t151 * t156 - (q0d2 * t141 - state.y[4] * t169)) - q0r0_y * t214) +
-      (grounds2bn0_x * t230 + (grounds2bn0_z * t231 - (t116 * t243 + t123 * t248)))));
-  const Real t260 = t122 * t248 + t123 * t258;
-  const Real t264 = t109 * t260 - (t108 * t243 + t116 * t258);
-  const Real t266 = t264 * Real(4.9999999999999995e-11);
-  const Real t272 = t260 * Real(1.5000000000000002e-10) + t109 * t266;
-  const Real t279 = t131 * (t116 * t266 - (t258 * Real(2.5e-10) + t123 * t272));
-  const Real t281 = t122 * t272 - t123 * t279;
-  const Real t286 = t108 * t266 + (t264 + (t109 * t281 + t116 * t279));
-  const Real t287 = t260 + t281;
-  const Real t288 = t258 - t279;
-  zdot[0] = -(t287 * model.c13);
-  zdot[1] = t288 * model.c13;
-  zdot[2] = (t286 - model.q_2) * model.c13;
-  zdot[3] = model.c6 * (t37 * t286 + (rdn0_x - (grounds1bn0_x * t287 - grounds2bn0_x * t288)));
-  zdot[4] = -(model.c7 * (grounds1bn0_y * t287 - grounds2bn0_y * t288));
-  zdot[5] = model.c6 * (t38 * t286 - (rdn0_z + (grounds1bn0_z * t287 + grounds2bn0_z * t288)));
+  const Real t237 = model.c6 * rdn0_x;
+  const Real t238 = model.c6 * rdn0_z;
+  const Real t250 = (q0d3 * t141 - q0d1 * t151 + (t146 * t157 - q0d2 * t136)) * (t25 * state.z[5]) + ((t161 -
+      t146 * (q0d2 + q0d2)) * (t25 * state.z[3]) + (t183 * (Real(2.0) * (t24 * t183) + model.radius * (t20 *
+      (t183 * (t21 * t22 * t191)))) + (t37 * t237 - t38 * t238))) - model.c12;
+  const Real t255 = (q0r1_z * state.z[5] + (q0r1_x * state.z[3] - q0r1_y * state.z[4])) * t219 - (t200 * (t183
+      * (grounds1bn0_y + t21 * groundc_y * t191) - t25 * (t161 - t151 * (q0d3 + q0d3))) - (grounds1bn0_x *
+      t237 - (grounds1bn0_z * t238 + t109 * t250)));
+  const Real t265 = t131 * ((q0r0_x * state.z[3] - (q0r0_z * state.z[5] + q0r0_y * state.z[4])) * t219 + (t200
+      * (t25 * (q0d2 * t141 - q0d1 * t146 + (t151 * t157 - q0d3 * t136)) - t183 * (grounds2bn0_y + t21 *
+      groundc_x * t191)) + (grounds2bn0_x * t237 + (grounds2bn0_z * t238 - (t116 * t250 + t123 * t255)))));
+  const Real t267 = t122 * t255 - t123 * t265;
+  const Real t271 = t109 * t267 - (t108 * t250 - t116 * t265);
+  const Real t273 = t271 * Real(4.9999999999999995e-11);
+  const Real t279 = t267 * Real(1.5000000000000002e-10) + t109 * t273;
+  const Real t286 = t131 * (t116 * t273 + (t265 * Real(2.5e-10) - t123 * t279));
+  const Real t288 = t122 * t279 - t123 * t286;
+  const Real t293 = t108 * t273 + (t271 + (t109 * t288 + t116 * t286));
+  const Real t294 = t267 + t288;
+  const Real t295 = t265 + t286;
+  zdot[0] = -(t294 * model.c13);
+  zdot[1] = -(t295 * model.c13);
+  zdot[2] = (t293 - model.q_2) * model.c13;
+  zdot[3] = model.c6 * (t37 * t293 + (rdn0_x - (grounds1bn0_x * t294 + grounds2bn0_x * t295)));
+  zdot[4] = -(model.c7 * (grounds1bn0_y * t294 + grounds2bn0_y * t295));
+  zdot[5] = model.c6 * (t38 * t293 - (rdn0_z + (grounds1bn0_z * t294 - grounds2bn0_z * t295)));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -585,35 +584,34 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t141 = t19 * state.z[4] - (t16 * state.z[3] + t18 * state.z[5]);
   const Real t146 = t16 * state.z[4] + (t19 * state.z[3] - t17 * state.z[5]);
   const Real t151 = t17 * state.z[4] - (t18 * state.z[3] - t16 * state.z[5]);
-  const Real t156 = Real(2.0) * state.y[3];
-  const Real t164 = t141 * (q0d1 + q0d1);
-  const Real t169 = Real(2.0) * t146;
-  const Real t179 = q0d1 * t136 + t141 * t156 - (q0d3 * t146 + q0d2 * t151);
-  const Real t189 = q0r2_y * state.z[4] - (q0r2_z * state.z[5] + q0r2_x * state.z[3]);
-  const Real t192 = q0r2_y * t21;
-  const Real t214 = t179 * (model.radius * (t20 * (t21 * t22 * t192)) + Real(2.0) * t24);
-  const Real t217 = t179 * (t25 + t25 + t21 * groundc_z * t192);
+  const Real t157 = Real(2.0) * state.y[3];
+  const Real t161 = t141 * (q0d1 + q0d1);
+  const Real t183 = q0d2 * t151 + q0d3 * t146 - (t141 * t157 + q0d1 * t136);
+  const Real t191 = t20 * t22;
+  const Real t200 = q0r2_x * state.z[3] + (q0r2_z * state.z[5] - q0r2_y * state.z[4]);
+  const Real t219 = t183 * (t25 + t25 + t21 * groundc_z * t191);
   const Real rww00 = state.z[4] * state.z[5];
   const Real rww02 = state.z[3] * state.z[4];
-  const Real t228 = rww00 * model.c18;
-  const Real t229 = rww02 * model.c18;
-  const Real t241 = state.z[5] * (t25 * (q0d3 * t141 - (q0d2 * t136 - (t146 * t156 - q0d1 * t151)))) + ((t164
-      - q0d2 * t169) * (t25 * state.z[3]) + (t179 * t214 + (t37 * t228 - t38 * t229))) - model.c12;
-  const Real t246 = (q0r1_y * state.z[4] - (q0r1_z * state.z[5] + q0r1_x * state.z[3])) * t217 - (t189 * (t25
-      * (t164 - t151 * (q0d3 + q0d3)) + q0r1_y * t214) - (grounds1bn0_x * t228 - (grounds1bn0_z * t229 + t109
-      * t241)));
-  const Real t256 = t131 * ((q0r0_x * state.z[3] - (q0r0_y * state.z[4] + q0r0_z * state.z[5])) * t217 - (t189
-      * (t25 * (q0d3 * t136 - t151 * t156 - (q0d2 * t141 - state.y[4] * t169)) - q0r0_y * t214) +
-      (grounds2bn0_x * t228 + (grounds2bn0_z * t229 - (t116 * t241 + t123 * t246)))));
-  const Real t258 = t122 * t246 + t123 * t256;
-  const Real t262 = t109 * t258 - (t108 * t241 + t116 * t256);
-  const Real t264 = t262 * Real(4.9999999999999995e-11);
-  const Real t270 = t258 * Real(1.5000000000000002e-10) + t109 * t264;
-  const Real t277 = t131 * (t116 * t264 - (t256 * Real(2.5e-10) + t123 * t270));
-  const Real t279 = t122 * t270 - t123 * t277;
-  lambda[0] = -(t108 * t264 + (t262 + (t109 * t279 + t116 * t277)));
-  lambda[1] = t258 + t279;
-  lambda[2] = -(t256 - t277);
+  const Real t235 = rww00 * model.c18;
+  const Real t236 = rww02 * model.c18;
+  const Real t248 = (q0d3 * t141 - q0d1 * t151 + (t146 * t157 - q0d2 * t136)) * (t25 * state.z[5]) + ((t161 -
+      t146 * (q0d2 + q0d2)) * (t25 * state.z[3]) + (t183 * (Real(2.0) * (t24 * t183) + model.radius * (t20 *
+      (t183 * (t21 * t22 * t191)))) + (t37 * t235 - t38 * t236))) - model.c12;
+  const Real t253 = (q0r1_z * state.z[5] + (q0r1_x * state.z[3] - q0r1_y * state.z[4])) * t219 - (t200 * (t183
+      * (grounds1bn0_y + t21 * groundc_y * t191) - t25 * (t161 - t151 * (q0d3 + q0d3))) - (grounds1bn0_x *
+      t235 - (grounds1bn0_z * t236 + t109 * t248)));
+  const Real t263 = t131 * ((q0r0_x * state.z[3] - (q0r0_z * state.z[5] + q0r0_y * state.z[4])) * t219 + (t200
+      * (t25 * (q0d2 * t141 - q0d1 * t146 + (t151 * t157 - q0d3 * t136)) - t183 * (grounds2bn0_y + t21 *
+      groundc_x * t191)) + (grounds2bn0_x * t235 + (grounds2bn0_z * t236 - (t116 * t248 + t123 * t253)))));
+  const Real t265 = t122 * t253 - t123 * t263;
+  const Real t269 = t109 * t265 - (t108 * t248 - t116 * t263);
+  const Real t271 = t269 * Real(4.9999999999999995e-11);
+  const Real t277 = t265 * Real(1.5000000000000002e-10) + t109 * t271;
+  const Real t284 = t131 * (t116 * t271 + (t263 * Real(2.5e-10) - t123 * t277));
+  const Real t286 = t122 * t277 - t123 * t284;
+  lambda[0] = -(t108 * t271 + (t269 + (t109 * t286 + t116 * t284)));
+  lambda[1] = t265 + t286;
+  lambda[2] = t263 + t284;
 }
 
 template <class Real> JOURDAIN_FUNCTION

@@ -290,11 +290,12 @@ Model<Real>::Model(const Parameters& parameters) noexcept {
   c11 = Real(1.0) / S0b_zz_2;
   c12 = Real(1.0) / Jy0;
   c13 = Real(1.0) / mass;
-  c14 = q_2 * c13;
-  c16 = Real(0.5) * mass;
-  c17 = Real(0.5) * radius;
-  c18 = Real(1.0) / S0b_zz;
-  c19 = kdS00 * c11;
+  c15 = q_2 * c13;
+  c17 = Real(0.5) * mass;
+  c18 = Real(0.5) * radius;
+  c19 = Real(1.0) / S0b_zz;
+  c20 = kdS00 * c11;
+  c14 = wave * c6;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -691,21 +692,21 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t606 = t389 * state.z[5] + (t387 * state.z[3] - t390 * state.z[4]);
   const Real t611 = t388 * state.z[5] - (t390 * state.z[3] + t387 * state.z[4]);
   const Real t616 = t387 * state.z[5] - (t389 * state.z[3] - t388 * state.z[4]);
-  const Real expression_68 = model.c7 * (expression_58 * expression_61);
+  const Real expression_68 = expression_58 * expression_61 * model.c14;
   const Real expression_69 = expression_63 * expression_66;
   const Real expression_70 = model.c9 * (expression_59 * expression_61);
   const Real groundggl = model.radius * groundggi;
   const Real groundggp = groundgs_xx - groundggq_x * groundggq_x;
   const Real groundggp_2 = groundgs_xy - groundggq_x * groundggq_y;
   const Real groundggp_3 = groundgs_yy - groundggq_y * groundggq_y;
-  const Real t630 = expression_69 * groundggp_2;
-  const Real groundggk = expression_68 * groundggp + t630;
+  const Real t631 = expression_69 * groundggp_2;
+  const Real groundggk = expression_68 * groundggp + t631;
   const Real groundggj = Real(1.0) + groundggl * groundggk;
   const Real groundggk_2 = expression_69 * groundggp + expression_70 * groundggp_2;
   const Real groundggj_2 = groundggl * groundggk_2;
   const Real groundggk_3 = expression_68 * groundggp_2 + expression_69 * groundggp_3;
   const Real groundggj_3 = groundggl * groundggk_3;
-  const Real groundggk_4 = t630 + expression_70 * groundggp_3;
+  const Real groundggk_4 = t631 + expression_70 * groundggp_3;
   const Real groundggj_4 = Real(1.0) + groundggl * groundggk_4;
   const Real groundggt = groundggj * groundggj_4 - groundggj_2 * groundggj_3;
   const Real groundggd = Real(1.0) / groundggt;
@@ -713,100 +714,116 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real groundgga_2 = groundggj_2 * groundggd;
   const Real groundgga_3 = groundggj_3 * groundggd;
   const Real groundgga_4 = groundggj * groundggd;
-  const Real t666 = q0d1 * t611 + (t401 * t616 - (q0d2 * t606 + q0d3 * t601));
-  const Real t670 = q0d3 * t611 - (t401 * t606 - (q0d1 * t601 - q0d2 * t616));
-  const Real t674 = q0r2_y * t666 + q0r0_y * t670;
-  const Real t676 = t393 * t670;
-  const Real t677 = t423 * t606 + t400 * t616;
-  const Real t679 = q0r1_y * t666 - q0r0_y * t677;
-  const Real t681 = q0r1_y * t670 - q0r2_y * t677;
-  const Real t683 = t417 * t666;
-  const Real t684 = expression_67 * t679;
-  const Real t687 = t684 - (t674 - t683);
-  const Real t690 = expression_64 * t679 - (t681 + t406 * t677);
-  const Real t698 = t395 * (groundggi * groundggi);
-  const Real t699 = (expression_64 * (t674 - t687) - (t676 - expression_67 * (t681 - t690))) * t698;
-  const Real t705 = state.z[1] - model.radius * (groundggi * t690 + groundgge_y * t699);
-  const Real t707 = state.z[0] + model.radius * (groundggi * t687 - groundgge_x * t699);
-  const Real t710 = groundgga * t707 - groundgga_2 * t705;
-  const Real t713 = groundgga_3 * t707 - groundgga_4 * t705;
-  const Real t715 = Real(0.5) * t435;
-  const Real t716 = Real(0.5) * t440;
-  const Real t717 = Real(0.5) * t445;
-  const Real t718 = Real(0.5) * t430;
-  const Real t726 = Real(2.0) * t422;
-  const Real t727 = Real(2.0) * t421;
-  const Real t733 = t420 * Real(4.0);
-  const Real t739 = t601 * t727;
-  const Real t740 = t616 * t726;
-  const Real t741 = t601 * t726;
-  const Real t745 = t606 * t727;
-  const Real t747 = t413 * t666;
-  const Real t751 = expression_68 * t710 - expression_69 * t713;
-  const Real t753 = expression_69 * t710 - expression_70 * t713;
-  const Real t758 = t413 * t751;
-  const Real t771 = t404 * t753;
-  const Real t774 = expression_67 * t751 - expression_64 * t753;
-  const Real t779 = t392 * t753 + t404 * t677;
-  const Real t793 = Real(0.5) * (t771 * (groundgo_4 * t554));
-  const Real t797 = Real(0.5) * ((t758 - t771) * (groundgo_3 * t528));
-  const Real t818 = t411 * t677 + (t419 * t670 + t416 * t666);
-  const Real t832 = t684 + (t683 - (groundgs_xx * t751 + (t674 + groundgs_xy * t753)));
-  const Real t837 = groundgs_yy * t753 + (t690 + groundgs_xy * t751);
-  const Real t842 = expression_64 * t674 + (groundgs_xz * t751 - (t676 + (groundgs_yz * t753 - expression_67 *
-      t681)));
-  const Real t848 = expression_67 * t837 - (t842 - (expression_64 * t832 + (groundgge_x * t751 + groundgge_y *
-      t753)));
-  const Real t852 = t698 * t848;
-  const Real t863 = q0r2_z * state.z[5] - (q0r2_y * state.z[4] + q0r2_x * state.z[3]);
-  const Real t866 = q0r1_z * state.z[5] - (q0r1_y * state.z[4] - q0r1_x * state.z[3]);
-  const Real t869 = q0r0_z * state.z[5] + (q0r0_y * state.z[4] - q0r0_x * state.z[3]);
-  const Real t875 = groundgv_x * t866 + (state.z[2] - groundgv_y * t869);
-  const Real t884 = groundggl * t837 - model.radius * (groundgge_y * t852);
-  const Real t887 = groundggl * t842 + model.radius * (groundgge_z * t852);
-  const Real t906 = groundgv_z * t869 + (state.z[1] + groundgv_x * t863);
-  const Real t910 = groundgo_4 * t797 - groundgo_3 * t793;
-  const Real t925 = model.radius * (groundggi * t832 + groundgge_x * t852);
+  const Real t655 = groundggi * groundggi;
+  const Real t657 = t423 * t606;
+  const Real t660 = q0d2 * t606 - q0d1 * t611;
+  const Real t662 = t400 * t616;
+  const Real t664 = q0d3 * t611 - q0d2 * t616;
+  const Real t665 = t401 * t616;
+  const Real t666 = t657 + t662;
+  const Real t670 = q0d3 * t601;
+  const Real t672 = t670 + (t660 - t665);
+  const Real t674 = t401 * t606 - q0d1 * t601;
+  const Real t675 = t664 - t674;
+  const Real t677 = q0r0_y * t666 + q0r1_y * t672;
+  const Real t683 = q0r2_y * t672 - q0r0_y * t675;
+  const Real t685 = q0r2_y * t666 - q0r1_y * t675;
+  const Real t686 = t393 * t675;
+  const Real t688 = expression_64 * t677 + (t406 * t666 - t685);
+  const Real t693 = t683 - (expression_67 * t677 + t417 * t672);
+  const Real t701 = t395 * t655 * (expression_64 * (t683 + t693) + (t686 + expression_67 * (t685 - t688)));
+  const Real t707 = state.z[1] + model.radius * (groundggi * t688 + groundgge_y * t701);
+  const Real t709 = state.z[0] + model.radius * (groundggi * t693 + groundgge_x * t701);
+  const Real t712 = groundgga * t709 - groundgga_2 * t707;
+  const Real t715 = groundgga_3 * t709 - groundgga_4 * t707;
+  const Real t721 = expression_69 * t715 - expression_68 * t712;
+  const Real t723 = expression_70 * t715 - expression_69 * t712;
+  const Real t728 = t404 * t723;
+  const Real t735 = Real(0.5) * (groundgo_4 * t554 * t728);
+  const Real t741 = t413 * t721;
+  const Real t744 = expression_64 * t723 - expression_67 * t721;
+  const Real t752 = Real(0.5) * ((t728 - t741) * (groundgo_3 * t528));
+  const Real t761 = groundgo_4 * t752 + groundgo_3 * t735;
+  const Real t789 = q0r1_y * state.z[4] - (q0r1_x * state.z[3] + q0r1_z * state.z[5]);
+  const Real t795 = q0r0_y * state.z[4] - (q0r0_x * state.z[3] - q0r0_z * state.z[5]);
+  const Real t798 = groundgv_y * t795 - (state.z[2] - groundgv_x * t789);
+  const Real t804 = q0r2_z * state.z[5] - (q0r2_x * state.z[3] + q0r2_y * state.z[4]);
+  const Real t819 = Real(0.5) * t430;
+  const Real t820 = Real(0.5) * t435;
+  const Real t821 = Real(0.5) * t445;
+  const Real t822 = Real(0.5) * t440;
+  const Real t832 = Real(2.0) * t422;
+  const Real t833 = Real(2.0) * t421;
+  const Real t839 = t420 * Real(4.0);
+  const Real t848 = t611 * (q0d2 + q0d2);
+  const Real t856 = t401 * t611 + q0d2 * t601;
+  const Real t860 = q0d1 * t616 + q0d3 * t606;
+  const Real t861 = t664 + t674;
+  const Real t868 = groundgv_x * groundgz_z;
+  const Real t874 = t665 + (t660 - t670);
+  const Real t891 = t392 * t723 - t404 * t666;
+  const Real t907 = groundgs_xy * t721 + (t688 + groundgs_yy * t723);
+  const Real t914 = expression_64 * t683 + (groundgs_xz * t721 + (expression_67 * t685 + (t686 - groundgs_yz *
+      t723)));
+  const Real t917 = groundgs_xx * t721 + (t693 + groundgs_xy * t723);
+  const Real t924 = t395 * (expression_64 * t917 + (t914 - (expression_67 * t907 + (groundgge_y * t723 +
+      groundgge_x * t721))));
+  const Real t929 = t655 * t924;
+  const Real t940 = t856 - t860;
+  const Real t941 = t856 + t860;
+  const Real t950 = groundggl * t917 + model.radius * (groundgge_x * t929);
+  const Real t953 = groundggl * t914 - model.radius * (groundgge_z * t929);
+  const Real t958 = t657 - t848;
+  const Real t959 = t662 - t848;
+  const Real t968 = model.radius * (groundggi * t907 + groundgge_y * t929);
   const Real rww00 = state.z[4] * state.z[5];
   const Real rww02 = state.z[3] * state.z[4];
   const Real rdn0_x = rww00 * model.kdS00;
   const Real rdn0_z = rww02 * model.kdS00;
-  const Real t933 = model.c11 * rdn0_x;
-  const Real t934 = model.c11 * rdn0_z;
-  const Real t975 = t616 * (t739 + (t739 + (state.z[3] * t718 - (t616 * t733 + Real(0.5) * (t435 * state.z[5]
-      - t440 * state.z[4]))))) - (t606 * (t606 * t733 + (t741 + (t741 + (state.z[5] * t718 + (state.z[3] *
-      t715 + state.z[4] * t717))))) - (t453 * t934 + (t449 * t933 + (groundgo_3 * model.c14 + (model.radius *
-      (t848 * (t395 * (groundggi * t395 * (groundgo_3 * t818)))) - (state.z[1] * (groundgo_3 * t753 +
-      expression_67 * t797) + (t797 * (t396 * t818 + (state.z[2] - expression_64 * state.z[0])) + (t677 *
-      (t397 * (expression_67 * t779 - (t391 * t774 + (t407 * t666 - (t404 * t670 - t418 * t753))))) +
-      ((expression_64 * t747 + (t392 * t774 - (t407 * t677 + (t413 * t670 + (t393 * t751 - t391 * t758))))) *
-      (t397 * t666) + (state.z[0] * (groundgo_3 * t751) + (t670 * (t397 * (t779 + (Real(2.0) * t670 - (t747 +
-      t391 * t751)))) + (t601 * (state.z[4] * t718 - (state.z[5] * t717 + state.z[3] * t716)) + t611 * (t745 +
-      (t740 + (t745 - (state.z[5] * t716 + (state.z[4] * t715 - (state.z[3] * t717 + t740))))))))))))))))));
-  const Real t985 = t567 * t975 - (grounds1bn0_z * t934 + (grounds1bn0_x * t933 + (groundgy_z * model.c14 +
-      ((groundgy_z * t866 + groundgy_y * t863) * t925 + ((groundgo_5 * t771 + groundgo * t910) * (groundgv_z *
-      t866 - (state.z[0] - groundgv_y * t863)) + (t906 * (groundgo_5 * t774 - t402 * t910) + (t875 *
-      (groundgo_5 * t751 - expression_64 * t910) + ((groundgy_z * t869 + groundgy_x * t863) * t884 - t887 *
-      (groundgy_x * t866 - groundgy_y * t869)))))))));
-  const Real t998 = t596 * (t585 * t985 + (t578 * t975 - (grounds2bn0_z * t934 + (grounds2bn0_x * t933 -
-      (groundgz_z * model.c14 + ((t519 * state.z[5] + (t507 * state.z[3] - t513 * state.z[4])) * t925 + (t793
-      * (expression_67 * t875 - t906) + (t869 * (groundgz_z * t884 - groundgo_4 * t887) - groundgo_4 * t753 *
-      t875))))))));
-  const Real t1000 = t584 * t985 - t585 * t998;
-  const Real t1004 = t578 * t998 - (t566 * t975 + t567 * t1000);
-  const Real t1005 = Real(4.9999999999999995e-11) * t1004;
-  const Real t1009 = Real(1.5000000000000002e-10) * t1000 - t567 * t1005;
-  const Real t1016 = t596 * (t585 * t1009 - (Real(2.5e-10) * t998 + t578 * t1005));
-  const Real t1018 = t584 * t1009 - t585 * t1016;
-  const Real t1023 = t578 * t1016 - (t567 * t1018 - (t1004 + t566 * t1005));
-  const Real t1024 = t1000 + t1018;
-  const Real t1025 = t998 + t1016;
-  zdot[0] = model.c13 * (expression_64 * groundgo_3 * t1023 - groundgy_x * t1024);
-  zdot[1] = model.c13 * (groundgo_4 * t1025 - (expression_67 * groundgo_3 * t1023 + groundgy_y * t1024));
-  zdot[2] = -(model.c13 * (groundgz_z * t1025 + (groundgo_3 * t1023 + groundgy_z * t1024) + model.q_2));
-  zdot[3] = -(model.c11 * (grounds2bn0_x * t1025 - (grounds1bn0_x * t1024 + (rdn0_x + t449 * t1023))));
-  zdot[4] = -(model.c12 * (grounds1bn0_y * t1024 - grounds2bn0_y * t1025));
-  zdot[5] = model.c11 * (grounds2bn0_z * t1025 - (grounds1bn0_z * t1024 + (rdn0_z + t453 * t1023)));
+  const Real t999 = model.c11 * rdn0_x;
+  const Real t1000 = model.c11 * rdn0_z;
+  const Real t1011 = t611 * t833 + t601 * t832;
+  const Real t1018 = t601 * t833 - t611 * t832;
+  const Real t1036 = t616 * (t1018 + (Real(0.5) * (t430 * state.z[3] + t440 * state.z[4]) - (state.z[5] * t820
+      + (t616 * t839 - t1018)))) - (t606 * (t1011 + (state.z[5] * t819 + (state.z[4] * t821 + (state.z[3] *
+      t820 + (t606 * t839 + t1011))))) - (t453 * t1000 + (t449 * t999 + (groundgo_3 * model.c15 - ((t411 *
+      t666 - (t416 * t672 - t419 * t675)) * (t396 * t752 - model.radius * (t924 * (groundgo_3 * (groundggi *
+      t395)))) - (t666 * (t397 * (expression_67 * t891 - (t404 * t675 + (t418 * t723 - (t391 * t744 - t407 *
+      t672))))) - (t397 * t675 * (t413 * t672 + (t391 * t721 + (Real(2.0) * t675 - t891))) + ((Real(2.0) *
+      (t382 * t672) + (t407 * t666 + (t413 * t675 - (t393 * t721 - (t391 * t741 - t392 * t744))))) * (t397 *
+      t672) - (t601 * (state.z[5] * t821 + (state.z[3] * t822 - state.z[4] * t819)) + (t611 * (state.z[5] *
+      t822 + (state.z[4] * t820 - state.z[3] * t821)) + (state.z[0] * (groundgo_3 * t721 + expression_64 *
+      t752) - (state.z[2] * t752 - state.z[1] * (groundgo_3 * t723 - expression_67 * t752)))))))))))));
+  const Real t1055 = t567 * t1036 - (grounds1bn0_z * t1000 + (grounds1bn0_x * t999 + (groundgy_z * model.c15 -
+      ((groundgy_y * t795 + groundgy_x * t789) * t953 - (t478 * state.z[5] * t958 + (t486 * state.z[5] * t940
+      - (t482 * state.z[5] * t861 + ((groundgy_z * t795 + groundgy_x * t804) * t968 - (t482 * state.z[3] *
+      t874 + (t486 * state.z[3] * t959 - ((groundgy_z * t789 - groundgy_y * t804) * t950 + (t478 * state.z[3]
+      * t941 + ((groundgo_5 * t728 - groundgo * t761) * (groundgv_y * t804 - (state.z[0] + groundgv_z * t789))
+      + (t672 * (t486 * state.z[4]) + (t666 * (t482 * state.z[4]) - (t675 * (t478 * state.z[4]) + ((groundgo_5
+      * t721 + expression_64 * t761) * t798 - (t402 * t761 - groundgo_5 * t744) * (groundgv_z * t795 +
+      (state.z[1] + groundgv_x * t804)))))))))))))))))));
+  const Real t1070 = t596 * (t585 * t1055 + (t578 * t1036 - (grounds2bn0_z * t1000 + (grounds2bn0_x * t999 -
+      (groundgz_z * model.c15 - ((groundgo_4 * t723 - expression_67 * t735) * t798 - (t795 * (groundgo_4 *
+      t953 + (groundgv_z * t735 - groundgz_z * t968)) - (state.z[4] * (groundgv_x * (q0r2_y * t735 -
+      groundgo_4 * t675) + (t513 * t950 - (t666 * t868 + t503 * t672))) - (state.z[5] * (groundgv_x * (q0r2_z
+      * t735 + groundgo_4 * t958) - (t503 * t940 - (t519 * t950 + t861 * t868))) + (state.z[1] * t735 -
+      state.z[3] * (t868 * t874 + (t503 * t959 + (groundgv_x * (q0r2_x * t735 + groundgo_4 * t941) - t507 *
+      t950)))))))))))));
+  const Real t1072 = t584 * t1055 - t585 * t1070;
+  const Real t1076 = t578 * t1070 - (t566 * t1036 + t567 * t1072);
+  const Real t1077 = Real(4.9999999999999995e-11) * t1076;
+  const Real t1081 = Real(1.5000000000000002e-10) * t1072 - t567 * t1077;
+  const Real t1088 = t596 * (t585 * t1081 - (Real(2.5e-10) * t1070 + t578 * t1077));
+  const Real t1090 = t584 * t1081 - t585 * t1088;
+  const Real t1095 = t578 * t1088 - (t567 * t1090 - (t1076 + t566 * t1077));
+  const Real t1096 = t1072 + t1090;
+  const Real t1097 = t1070 + t1088;
+  zdot[0] = model.c13 * (expression_64 * groundgo_3 * t1095 - groundgy_x * t1096);
+  zdot[1] = model.c13 * (groundgo_4 * t1097 - (expression_67 * groundgo_3 * t1095 + groundgy_y * t1096));
+  zdot[2] = -(model.c13 * (groundgz_z * t1097 + (groundgo_3 * t1095 + groundgy_z * t1096) + model.q_2));
+  zdot[3] = -(model.c11 * (grounds2bn0_x * t1097 - (grounds1bn0_x * t1096 + (rdn0_x + t449 * t1095))));
+  zdot[4] = -(model.c12 * (grounds1bn0_y * t1096 - grounds2bn0_y * t1097));
+  zdot[5] = model.c11 * (grounds2bn0_z * t1097 - (grounds1bn0_z * t1096 + (rdn0_z + t453 * t1095)));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -833,7 +850,7 @@ template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept {
   const Real Tfree = (state.z[4] * state.z[4] * model.Jy0 + (state.z[3] * state.z[3] + state.z[5] *
       state.z[5]) * model.S0b_zz) * Real(0.5) + (state.z[2] * state.z[2] + (state.z[0] * state.z[0] +
-      state.z[1] * state.z[1])) * model.c16;
+      state.z[1] * state.z[1])) * model.c17;
   return Tfree;
 }
 
@@ -848,7 +865,7 @@ void outputs(const Model<Real>& model, const State<Real>& state, const Input<Rea
     noexcept {
   const Real Tfree = (state.z[4] * state.z[4] * model.Jy0 + (state.z[3] * state.z[3] + state.z[5] *
       state.z[5]) * model.S0b_zz) * Real(0.5) + (state.z[2] * state.z[2] + (state.z[0] * state.z[0] +
-      state.z[1] * state.z[1])) * model.c16;
+      state.z[1] * state.z[1])) * model.c17;
   const Real V = state.y[2] * model.q_2;
   result.kinetic = Tfree;
   result.potential = V;
@@ -1087,7 +1104,7 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real t401 = state.y[5] * Real(0.5);
   const Real t402 = state.y[6] * Real(0.5);
   const Real groundggi = Real(1.0) / groundggr;
-  const Real t407 = groundgo_3 * groundggi * model.c17;
+  const Real t407 = groundgo_3 * groundggi * model.c18;
   const Real t408 = expression_65 * groundgo_3;
   const Real t409 = expression_68 * groundgo_3;
   const Real t410 = Real(2.0) * state.y[3];
@@ -1135,14 +1152,14 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real grounds2bn0_x = q0r0_x * t505 - groundgv_x * (q0r1_x * groundgz_z - q0r2_x * groundgo_4);
   const Real grounds2bn0_y = q0r0_y * t505 - groundgv_x * (q0r1_y * groundgz_z + q0r2_y * groundgo_4);
   const Real grounds2bn0_z = q0r0_z * t505 + groundgv_x * (q0r1_z * groundgz_z + q0r2_z * groundgo_4);
-  const Real t528 = grounds1bn0_x * model.c18;
-  const Real t529 = grounds1bn0_z * model.c18;
+  const Real t528 = grounds1bn0_x * model.c19;
+  const Real t529 = grounds1bn0_z * model.c19;
   const Real t532 = t451 * t528 + t455 * t529;
-  const Real t541 = grounds2bn0_x * model.c18;
+  const Real t541 = grounds2bn0_x * model.c19;
   const Real t542 = grounds2bn0_y * model.c12;
-  const Real t543 = grounds2bn0_z * model.c18;
+  const Real t543 = grounds2bn0_z * model.c19;
   const Real t546 = t451 * t541 + t455 * t543;
-  const Real t562 = Real(1.0) / (groundgo_2 * (groundgo_3 * groundgo_3) * model.c13 + model.c18 * (t451 * t451
+  const Real t562 = Real(1.0) / (groundgo_2 * (groundgo_3 * groundgo_3) * model.c13 + model.c19 * (t451 * t451
       + t455 * t455) + Real(4.9999999999999995e-11));
   const Real t563 = t532 * t562;
   const Real t574 = t546 * t562;
@@ -1160,9 +1177,9 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real t632 = model.c13 * (t408 * t605 + groundgy_x * t601);
   const Real t633 = model.c13 * (groundgo_4 * t599 + (t409 * t605 - groundgy_y * t601));
   const Real t634 = model.c13 * (groundgz_z * t599 - (groundgo_3 * t605 - groundgy_z * t601));
-  const Real t635 = model.c18 * (grounds2bn0_x * t599 - (t451 * t605 + grounds1bn0_x * t601));
+  const Real t635 = model.c19 * (grounds2bn0_x * t599 - (t451 * t605 + grounds1bn0_x * t601));
   const Real t636 = model.c12 * (grounds1bn0_y * t601 - grounds2bn0_y * t599);
-  const Real t637 = model.c18 * (grounds2bn0_z * t599 - (t455 * t605 + grounds1bn0_z * t601));
+  const Real t637 = model.c19 * (grounds2bn0_z * t599 - (t455 * t605 + grounds1bn0_z * t601));
   const Real t638 = state.y[0] - t632;
   const Real t639 = state.y[1] - t633;
   const Real t641 = Real(0.5) * t635;
@@ -1406,7 +1423,7 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real t1054 = Real(0.5) * t679;
   const Real t1055 = Real(0.5) * t680;
   const Real groundggi_2 = Real(1.0) / groundggr_2;
-  const Real t1059 = model.c17 * (groundgo_8 * groundggi_2);
+  const Real t1059 = model.c18 * (groundgo_8 * groundggi_2);
   const Real t1062 = Real(2.0) * t677;
   const Real t1065 = expression_132 + expression_132;
   const Real t1066 = q0r1_y_2 * t1065;
@@ -1490,9 +1507,9 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   closed.z[0] = state.z[0] - model.c13 * (t408 * t1225 + groundgy_x * t1221);
   closed.z[1] = state.z[1] - model.c13 * (groundgo_4 * t1219 + (t409 * t1225 - groundgy_y * t1221));
   closed.z[2] = state.z[2] - model.c13 * (groundgz_z * t1219 - (groundgo_3 * t1225 - groundgy_z * t1221));
-  closed.z[3] = state.z[3] - model.c18 * (grounds2bn0_x * t1219 - (t451 * t1225 + grounds1bn0_x * t1221));
+  closed.z[3] = state.z[3] - model.c19 * (grounds2bn0_x * t1219 - (t451 * t1225 + grounds1bn0_x * t1221));
   closed.z[4] = state.z[4] - model.c12 * (grounds1bn0_y * t1221 - grounds2bn0_y * t1219);
-  closed.z[5] = state.z[5] + model.c18 * (grounds2bn0_z * t1219 - (t455 * t1225 + grounds1bn0_z * t1221));
+  closed.z[5] = state.z[5] + model.c19 * (grounds2bn0_z * t1219 - (t455 * t1225 + grounds1bn0_z * t1221));
   closed.regularity = -(Real(1.0) / (t592 * (t562 * t580)) * Real(0.5333333333333331));
   closed.opening = detail::where_negative(groundggj + groundggj_4, Real(1.0)) +
       (detail::where_negative(groundggt, Real(1.0)) + (groundgm_2 * groundgm_2 + (groundgm * groundgm + (t637
@@ -1727,7 +1744,7 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real t401 = state.y[5] * Real(0.5);
   const Real t402 = state.y[6] * Real(0.5);
   const Real groundggi = Real(1.0) / groundggr;
-  const Real t407 = groundgo_3 * groundggi * model.c17;
+  const Real t407 = groundgo_3 * groundggi * model.c18;
   const Real t410 = Real(2.0) * state.y[3];
   const Real t413 = expression_66 + expression_66;
   const Real t414 = q0r1_y * t413;
@@ -2096,21 +2113,21 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t604 = t389 * state.z[5] + (t387 * state.z[3] - t390 * state.z[4]);
   const Real t609 = t388 * state.z[5] - (t390 * state.z[3] + t387 * state.z[4]);
   const Real t614 = t387 * state.z[5] - (t389 * state.z[3] - t388 * state.z[4]);
-  const Real expression_68 = model.c7 * (expression_58 * expression_61);
+  const Real expression_68 = expression_58 * expression_61 * model.c14;
   const Real expression_69 = expression_63 * expression_66;
   const Real expression_70 = model.c9 * (expression_59 * expression_61);
   const Real groundggl = model.radius * groundggi;
   const Real groundggp = groundgs_xx - groundggq_x * groundggq_x;
   const Real groundggp_2 = groundgs_xy - groundggq_x * groundggq_y;
   const Real groundggp_3 = groundgs_yy - groundggq_y * groundggq_y;
-  const Real t628 = expression_69 * groundggp_2;
-  const Real groundggk = expression_68 * groundggp + t628;
+  const Real t629 = expression_69 * groundggp_2;
+  const Real groundggk = expression_68 * groundggp + t629;
   const Real groundggj = Real(1.0) + groundggl * groundggk;
   const Real groundggk_2 = expression_69 * groundggp + expression_70 * groundggp_2;
   const Real groundggj_2 = groundggl * groundggk_2;
   const Real groundggk_3 = expression_68 * groundggp_2 + expression_69 * groundggp_3;
   const Real groundggj_3 = groundggl * groundggk_3;
-  const Real groundggk_4 = t628 + expression_70 * groundggp_3;
+  const Real groundggk_4 = t629 + expression_70 * groundggp_3;
   const Real groundggj_4 = Real(1.0) + groundggl * groundggk_4;
   const Real groundggt = groundggj * groundggj_4 - groundggj_2 * groundggj_3;
   const Real groundggd = Real(1.0) / groundggt;
@@ -2118,92 +2135,108 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real groundgga_2 = groundggj_2 * groundggd;
   const Real groundgga_3 = groundggj_3 * groundggd;
   const Real groundgga_4 = groundggj * groundggd;
-  const Real t664 = q0d1 * t609 + (t399 * t614 - (q0d2 * t604 + q0d3 * t599));
-  const Real t668 = q0d3 * t609 - (t399 * t604 - (q0d1 * t599 - q0d2 * t614));
-  const Real t672 = q0r2_y * t664 + q0r0_y * t668;
-  const Real t674 = t393 * t668;
-  const Real t675 = t421 * t604 + t398 * t614;
-  const Real t677 = q0r1_y * t664 - q0r0_y * t675;
-  const Real t679 = q0r1_y * t668 - q0r2_y * t675;
-  const Real t681 = t415 * t664;
-  const Real t682 = expression_67 * t677;
-  const Real t685 = t682 - (t672 - t681);
-  const Real t688 = expression_64 * t677 - (t679 + t404 * t675);
-  const Real t696 = t395 * (groundggi * groundggi);
-  const Real t697 = (expression_64 * (t672 - t685) - (t674 - expression_67 * (t679 - t688))) * t696;
-  const Real t703 = state.z[1] - model.radius * (groundggi * t688 + groundgge_y * t697);
-  const Real t705 = state.z[0] + model.radius * (groundggi * t685 - groundgge_x * t697);
-  const Real t708 = groundgga * t705 - groundgga_2 * t703;
-  const Real t711 = groundgga_3 * t705 - groundgga_4 * t703;
-  const Real t713 = Real(0.5) * t433;
-  const Real t714 = Real(0.5) * t438;
-  const Real t715 = Real(0.5) * t443;
-  const Real t716 = Real(0.5) * t428;
-  const Real t724 = Real(2.0) * t420;
-  const Real t725 = Real(2.0) * t419;
-  const Real t731 = t418 * Real(4.0);
-  const Real t737 = t599 * t725;
-  const Real t738 = t614 * t724;
-  const Real t739 = t599 * t724;
-  const Real t743 = t604 * t725;
-  const Real t745 = t411 * t664;
-  const Real t749 = expression_68 * t708 - expression_69 * t711;
-  const Real t751 = expression_69 * t708 - expression_70 * t711;
-  const Real t756 = t411 * t749;
-  const Real t769 = t402 * t751;
-  const Real t772 = expression_67 * t749 - expression_64 * t751;
-  const Real t777 = t392 * t751 + t402 * t675;
-  const Real t791 = Real(0.5) * (t769 * (groundgo_4 * t552));
-  const Real t795 = Real(0.5) * ((t756 - t769) * (groundgo_3 * t526));
-  const Real t816 = t409 * t675 + (t417 * t668 + t414 * t664);
-  const Real t830 = t682 + (t681 - (groundgs_xx * t749 + (t672 + groundgs_xy * t751)));
-  const Real t835 = groundgs_yy * t751 + (t688 + groundgs_xy * t749);
-  const Real t840 = expression_64 * t672 + (groundgs_xz * t749 - (t674 + (groundgs_yz * t751 - expression_67 *
-      t679)));
-  const Real t846 = expression_67 * t835 - (t840 - (expression_64 * t830 + (groundgge_x * t749 + groundgge_y *
-      t751)));
-  const Real t850 = t696 * t846;
-  const Real t861 = q0r2_z * state.z[5] - (q0r2_y * state.z[4] + q0r2_x * state.z[3]);
-  const Real t864 = q0r1_z * state.z[5] - (q0r1_y * state.z[4] - q0r1_x * state.z[3]);
-  const Real t867 = q0r0_z * state.z[5] + (q0r0_y * state.z[4] - q0r0_x * state.z[3]);
-  const Real t873 = groundgv_x * t864 + (state.z[2] - groundgv_y * t867);
-  const Real t882 = groundggl * t835 - model.radius * (groundgge_y * t850);
-  const Real t885 = groundggl * t840 + model.radius * (groundgge_z * t850);
-  const Real t904 = groundgv_z * t867 + (state.z[1] + groundgv_x * t861);
-  const Real t908 = groundgo_4 * t795 - groundgo_3 * t791;
-  const Real t923 = model.radius * (groundggi * t830 + groundgge_x * t850);
+  const Real t653 = groundggi * groundggi;
+  const Real t655 = t421 * t604;
+  const Real t658 = q0d2 * t604 - q0d1 * t609;
+  const Real t660 = t398 * t614;
+  const Real t662 = q0d3 * t609 - q0d2 * t614;
+  const Real t663 = t399 * t614;
+  const Real t664 = t655 + t660;
+  const Real t668 = q0d3 * t599;
+  const Real t670 = t668 + (t658 - t663);
+  const Real t672 = t399 * t604 - q0d1 * t599;
+  const Real t673 = t662 - t672;
+  const Real t675 = q0r0_y * t664 + q0r1_y * t670;
+  const Real t681 = q0r2_y * t670 - q0r0_y * t673;
+  const Real t683 = q0r2_y * t664 - q0r1_y * t673;
+  const Real t684 = t393 * t673;
+  const Real t686 = expression_64 * t675 + (t404 * t664 - t683);
+  const Real t691 = t681 - (expression_67 * t675 + t415 * t670);
+  const Real t699 = t395 * t653 * (expression_64 * (t681 + t691) + (t684 + expression_67 * (t683 - t686)));
+  const Real t705 = state.z[1] + model.radius * (groundggi * t686 + groundgge_y * t699);
+  const Real t707 = state.z[0] + model.radius * (groundggi * t691 + groundgge_x * t699);
+  const Real t710 = groundgga * t707 - groundgga_2 * t705;
+  const Real t713 = groundgga_3 * t707 - groundgga_4 * t705;
+  const Real t719 = expression_69 * t713 - expression_68 * t710;
+  const Real t721 = expression_70 * t713 - expression_69 * t710;
+  const Real t726 = t402 * t721;
+  const Real t733 = Real(0.5) * (groundgo_4 * t552 * t726);
+  const Real t739 = t411 * t719;
+  const Real t742 = expression_64 * t721 - expression_67 * t719;
+  const Real t750 = Real(0.5) * ((t726 - t739) * (groundgo_3 * t526));
+  const Real t759 = groundgo_4 * t750 + groundgo_3 * t733;
+  const Real t787 = q0r1_y * state.z[4] - (q0r1_x * state.z[3] + q0r1_z * state.z[5]);
+  const Real t793 = q0r0_y * state.z[4] - (q0r0_x * state.z[3] - q0r0_z * state.z[5]);
+  const Real t796 = groundgv_y * t793 - (state.z[2] - groundgv_x * t787);
+  const Real t802 = q0r2_z * state.z[5] - (q0r2_x * state.z[3] + q0r2_y * state.z[4]);
+  const Real t817 = Real(0.5) * t428;
+  const Real t818 = Real(0.5) * t433;
+  const Real t819 = Real(0.5) * t443;
+  const Real t820 = Real(0.5) * t438;
+  const Real t830 = Real(2.0) * t420;
+  const Real t831 = Real(2.0) * t419;
+  const Real t837 = t418 * Real(4.0);
+  const Real t846 = t609 * (q0d2 + q0d2);
+  const Real t854 = t399 * t609 + q0d2 * t599;
+  const Real t858 = q0d1 * t614 + q0d3 * t604;
+  const Real t859 = t662 + t672;
+  const Real t866 = groundgv_x * groundgz_z;
+  const Real t872 = t663 + (t658 - t668);
+  const Real t889 = t392 * t721 - t402 * t664;
+  const Real t905 = groundgs_xy * t719 + (t686 + groundgs_yy * t721);
+  const Real t912 = expression_64 * t681 + (groundgs_xz * t719 + (expression_67 * t683 + (t684 - groundgs_yz *
+      t721)));
+  const Real t915 = groundgs_xx * t719 + (t691 + groundgs_xy * t721);
+  const Real t922 = t395 * (expression_64 * t915 + (t912 - (expression_67 * t905 + (groundgge_y * t721 +
+      groundgge_x * t719))));
+  const Real t927 = t653 * t922;
+  const Real t938 = t854 - t858;
+  const Real t939 = t854 + t858;
+  const Real t948 = groundggl * t915 + model.radius * (groundgge_x * t927);
+  const Real t951 = groundggl * t912 - model.radius * (groundgge_z * t927);
+  const Real t956 = t655 - t846;
+  const Real t957 = t660 - t846;
+  const Real t966 = model.radius * (groundggi * t905 + groundgge_y * t927);
   const Real rww00 = state.z[4] * state.z[5];
   const Real rww02 = state.z[3] * state.z[4];
-  const Real t929 = rww00 * model.c19;
-  const Real t930 = rww02 * model.c19;
-  const Real t971 = t614 * (t737 + (t737 + (state.z[3] * t716 - (t614 * t731 + Real(0.5) * (t433 * state.z[5]
-      - t438 * state.z[4]))))) - (t604 * (t604 * t731 + (t739 + (t739 + (state.z[5] * t716 + (state.z[3] *
-      t713 + state.z[4] * t715))))) - (t451 * t930 + (t447 * t929 + (groundgo_3 * model.c14 + (model.radius *
-      (t846 * (t395 * (groundggi * t395 * (groundgo_3 * t816)))) - (state.z[1] * (groundgo_3 * t751 +
-      expression_67 * t795) + (t795 * (t396 * t816 + (state.z[2] - expression_64 * state.z[0])) + (t675 *
-      (t397 * (expression_67 * t777 - (t391 * t772 + (t405 * t664 - (t402 * t668 - t416 * t751))))) +
-      ((expression_64 * t745 + (t392 * t772 - (t405 * t675 + (t411 * t668 + (t393 * t749 - t391 * t756))))) *
-      (t397 * t664) + (state.z[0] * (groundgo_3 * t749) + (t668 * (t397 * (t777 + (Real(2.0) * t668 - (t745 +
-      t391 * t749)))) + (t599 * (state.z[4] * t716 - (state.z[5] * t715 + state.z[3] * t714)) + t609 * (t743 +
-      (t738 + (t743 - (state.z[5] * t714 + (state.z[4] * t713 - (state.z[3] * t715 + t738))))))))))))))))));
-  const Real t981 = t565 * t971 - (grounds1bn0_z * t930 + (grounds1bn0_x * t929 + (groundgy_z * model.c14 +
-      ((groundgy_z * t864 + groundgy_y * t861) * t923 + ((groundgo_5 * t769 + groundgo * t908) * (groundgv_z *
-      t864 - (state.z[0] - groundgv_y * t861)) + (t904 * (groundgo_5 * t772 - t400 * t908) + (t873 *
-      (groundgo_5 * t749 - expression_64 * t908) + ((groundgy_z * t867 + groundgy_x * t861) * t882 - t885 *
-      (groundgy_x * t864 - groundgy_y * t867)))))))));
-  const Real t994 = t594 * (t583 * t981 + (t576 * t971 - (grounds2bn0_z * t930 + (grounds2bn0_x * t929 -
-      (groundgz_z * model.c14 + ((t517 * state.z[5] + (t505 * state.z[3] - t511 * state.z[4])) * t923 + (t791
-      * (expression_67 * t873 - t904) + (t867 * (groundgz_z * t882 - groundgo_4 * t885) - groundgo_4 * t751 *
-      t873))))))));
-  const Real t996 = t582 * t981 - t583 * t994;
-  const Real t1000 = t576 * t994 - (t564 * t971 + t565 * t996);
-  const Real t1001 = Real(4.9999999999999995e-11) * t1000;
-  const Real t1005 = Real(1.5000000000000002e-10) * t996 - t565 * t1001;
-  const Real t1012 = t594 * (t583 * t1005 - (Real(2.5e-10) * t994 + t576 * t1001));
-  const Real t1014 = t582 * t1005 - t583 * t1012;
-  lambda[0] = t576 * t1012 - (t565 * t1014 - (t1000 + t564 * t1001));
-  lambda[1] = t996 + t1014;
-  lambda[2] = -(t994 + t1012);
+  const Real t995 = rww00 * model.c20;
+  const Real t996 = rww02 * model.c20;
+  const Real t1007 = t609 * t831 + t599 * t830;
+  const Real t1014 = t599 * t831 - t609 * t830;
+  const Real t1032 = t614 * (t1014 + (Real(0.5) * (t428 * state.z[3] + t438 * state.z[4]) - (state.z[5] * t818
+      + (t614 * t837 - t1014)))) - (t604 * (t1007 + (state.z[5] * t817 + (state.z[4] * t819 + (state.z[3] *
+      t818 + (t604 * t837 + t1007))))) - (t451 * t996 + (t447 * t995 + (groundgo_3 * model.c15 - ((t409 * t664
+      - (t414 * t670 - t417 * t673)) * (t396 * t750 - model.radius * (t922 * (groundgo_3 * (groundggi *
+      t395)))) - (t664 * (t397 * (expression_67 * t889 - (t402 * t673 + (t416 * t721 - (t391 * t742 - t405 *
+      t670))))) - (t397 * t673 * (t411 * t670 + (t391 * t719 + (Real(2.0) * t673 - t889))) + ((Real(2.0) *
+      (t382 * t670) + (t405 * t664 + (t411 * t673 - (t393 * t719 - (t391 * t739 - t392 * t742))))) * (t397 *
+      t670) - (t599 * (state.z[5] * t819 + (state.z[3] * t820 - state.z[4] * t817)) + (t609 * (state.z[5] *
+      t820 + (state.z[4] * t818 - state.z[3] * t819)) + (state.z[0] * (groundgo_3 * t719 + expression_64 *
+      t750) - (state.z[2] * t750 - state.z[1] * (groundgo_3 * t721 - expression_67 * t750)))))))))))));
+  const Real t1051 = t565 * t1032 - (grounds1bn0_z * t996 + (grounds1bn0_x * t995 + (groundgy_z * model.c15 -
+      ((groundgy_y * t793 + groundgy_x * t787) * t951 - (t476 * state.z[5] * t956 + (t484 * state.z[5] * t938
+      - (t480 * state.z[5] * t859 + ((groundgy_z * t793 + groundgy_x * t802) * t966 - (t480 * state.z[3] *
+      t872 + (t484 * state.z[3] * t957 - ((groundgy_z * t787 - groundgy_y * t802) * t948 + (t476 * state.z[3]
+      * t939 + ((groundgo_5 * t726 - groundgo * t759) * (groundgv_y * t802 - (state.z[0] + groundgv_z * t787))
+      + (t670 * (t484 * state.z[4]) + (t664 * (t480 * state.z[4]) - (t673 * (t476 * state.z[4]) + ((groundgo_5
+      * t719 + expression_64 * t759) * t796 - (t400 * t759 - groundgo_5 * t742) * (groundgv_z * t793 +
+      (state.z[1] + groundgv_x * t802)))))))))))))))))));
+  const Real t1066 = t594 * (t583 * t1051 + (t576 * t1032 - (grounds2bn0_z * t996 + (grounds2bn0_x * t995 -
+      (groundgz_z * model.c15 - ((groundgo_4 * t721 - expression_67 * t733) * t796 - (t793 * (groundgo_4 *
+      t951 + (groundgv_z * t733 - groundgz_z * t966)) - (state.z[4] * (groundgv_x * (q0r2_y * t733 -
+      groundgo_4 * t673) + (t511 * t948 - (t664 * t866 + t501 * t670))) - (state.z[5] * (groundgv_x * (q0r2_z
+      * t733 + groundgo_4 * t956) - (t501 * t938 - (t517 * t948 + t859 * t866))) + (state.z[1] * t733 -
+      state.z[3] * (t866 * t872 + (t501 * t957 + (groundgv_x * (q0r2_x * t733 + groundgo_4 * t939) - t505 *
+      t948)))))))))))));
+  const Real t1068 = t582 * t1051 - t583 * t1066;
+  const Real t1072 = t576 * t1066 - (t564 * t1032 + t565 * t1068);
+  const Real t1073 = Real(4.9999999999999995e-11) * t1072;
+  const Real t1077 = Real(1.5000000000000002e-10) * t1068 - t565 * t1073;
+  const Real t1084 = t594 * (t583 * t1077 - (Real(2.5e-10) * t1066 + t576 * t1073));
+  const Real t1086 = t582 * t1077 - t583 * t1084;
+  lambda[0] = t576 * t1084 - (t565 * t1086 - (t1072 + t564 * t1073));
+  lambda[1] = t1068 + t1086;
+  lambda[2] = -(t1066 + t1084);
 }
 
 template <class Real> JOURDAIN_FUNCTION

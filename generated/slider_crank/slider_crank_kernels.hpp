@@ -375,11 +375,11 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[1]) noexcept 
   const Real t21 = Real(1.0) / piston_pinbx_x;
   const Real t22 = piston_pinbx1_x * t21;
   const Real t26 = t22 * state.z[0];
+  const Real t27 = Real(0.045) * state.z[0];
   const Real w1_z = state.z[0] + t26;
-  const Real t28 = Real(0.045) * state.z[0];
-  const Real t31 = state.z[0] * (s0 * t28);
-  const Real t32 = t28 * (c0 * state.z[0]);
-  const Real t38 = t21 * (t31 + Real(0.145) * (w1_z * (s1 * w1_z)));
+  const Real t31 = t27 * (s0 * state.z[0]);
+  const Real t32 = t27 * (c0 * state.z[0]);
+  const Real t37 = t21 * (t31 + w1_z * (piston_pinbx_y * w1_z));
   const Real h1b_x = c1 * Real(0.02475);
   const Real h1b_y = s1 * Real(0.02475);
   const Real kQp1 = t31 * h1b_x + t32 * h1b_y;
@@ -388,8 +388,8 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[1]) noexcept 
   const Real kdf1_y = h1b_y * zw_1;
   const Real kn1c_z = r1_x * kdf1_y + r1_y * kdf1_x;
   const Real E1 = t5 * Real(0.00111375) + Real(0.00311375);
-  k[0] = kn1c_z + t38 * E1 - t22 * (kQp1 - t38 * Real(0.00311375)) + (piston_pinbx1_y + piston_pinbx_y * t22)
-      * (t22 * t32 + piston_pinbx_y * t38) * Real(0.48);
+  k[0] = kn1c_z + t37 * E1 - t22 * (kQp1 - t37 * Real(0.00311375)) + (piston_pinbx1_y + piston_pinbx_y * t22)
+      * (t22 * t32 + piston_pinbx_y * t37) * Real(0.48);
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -428,11 +428,11 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t21 = piston_pinbx1_x * t20;
   const Real t24 = piston_pinbx_y + (r1_y + piston_pinbx_y * t21);
   const Real t26 = t21 * state.z[0];
+  const Real t27 = Real(0.045) * state.z[0];
   const Real w1_z = state.z[0] + t26;
-  const Real t28 = Real(0.045) * state.z[0];
-  const Real t31 = state.z[0] * (s0 * t28);
-  const Real t32 = t28 * (c0 * state.z[0]);
-  const Real t37 = t20 * (t31 + Real(0.145) * (w1_z * (s1 * w1_z)));
+  const Real t31 = t27 * (s0 * state.z[0]);
+  const Real t32 = t27 * (c0 * state.z[0]);
+  const Real t36 = t20 * (t31 + w1_z * (piston_pinbx_y * w1_z));
   const Real h1b_x = c1 * Real(0.02475);
   const Real h1b_y = s1 * Real(0.02475);
   const Real D1 = t5 * Real(0.00111375);
@@ -444,10 +444,10 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real rQp0 = h0_y * Real(9.81);
   const Real ra1o_x = t32 - Real(9.81);
   const Real zw_1 = t26 * (state.z[0] + w1_z);
-  const Real rdf1_x = t37 * h1b_y + h1b_x * zw_1;
-  const Real rdf1_y = t37 * h1b_x - h1b_y * zw_1;
-  const Real rdn1_z = t37 * Real(0.00311375);
-  const Real rdf2t_z = (piston_pinbx_y * t37 + t21 * t32) * Real(0.48);
+  const Real rdf1_x = t36 * h1b_y + h1b_x * zw_1;
+  const Real rdf1_y = t36 * h1b_x - h1b_y * zw_1;
+  const Real rdn1_z = t36 * Real(0.00311375);
+  const Real rdf2t_z = (piston_pinbx_y * t36 + t21 * t32) * Real(0.48);
   const Real rQ1_0 = h1b_y * ra1o_x + (t31 * h1b_x - rdn1_z);
   const Real tau_2_0 = rdf2t_z - input.u[0] + Real(4.7088);
   zdot[0] = (rdn1_z + (rQp0 - (r1_x * rdf1_y - (r1_y * rdf1_x + (input.u[1] - (t21 * rQ1_0 - t24 *
@@ -471,12 +471,12 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t22 = piston_pinbx1_x * t21;
   const Real t24 = piston_pinbx1_y + piston_pinbx_y * t22;
   const Real t26 = t22 * state.z[0];
+  const Real t27 = Real(0.045) * state.z[0];
   const Real w1_z = state.z[0] + t26;
-  const Real t28 = Real(0.045) * state.z[0];
-  const Real t31 = state.z[0] * (s0 * t28);
-  const Real t32 = t28 * (c0 * state.z[0]);
-  const Real t38 = t21 * (t31 + Real(0.145) * (w1_z * (s1 * w1_z)));
-  const Real t43 = t38 - t22 * zdot[0];
+  const Real t31 = t27 * (s0 * state.z[0]);
+  const Real t32 = t27 * (c0 * state.z[0]);
+  const Real t37 = t21 * (t31 + w1_z * (piston_pinbx_y * w1_z));
+  const Real t42 = t37 - t22 * zdot[0];
   const Real h1b_x = c1 * Real(0.02475);
   const Real h1b_y = s1 * Real(0.02475);
   const Real h0b_y = s0 * Real(0.02475);
@@ -488,10 +488,10 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real aa1o_y = t31 - r1_x * zdot[0];
   const Real aQp1 = zdot[0] * Real(0.00311375) + h1b_x * aa1o_y + h1b_y * aa1o_x;
   const Real zw_1 = t26 * (state.z[0] + w1_z);
-  const Real adf1_x = t43 * h1b_y + h1b_x * zw_1;
-  const Real adf1_y = t43 * h1b_x - h1b_y * zw_1;
-  const Real adn1_z = t43 * Real(0.00311375);
-  const Real adf2t_z = (t22 * t32 + piston_pinbx_y * t38 - t24 * zdot[0]) * Real(0.48);
+  const Real adf1_x = t42 * h1b_y + h1b_x * zw_1;
+  const Real adf1_y = t42 * h1b_x - h1b_y * zw_1;
+  const Real adn1_z = t42 * Real(0.00311375);
+  const Real adf2t_z = (t22 * t32 + piston_pinbx_y * t37 - t24 * zdot[0]) * Real(0.48);
   const Real an1c_z = adn1_z - (adn0_z + (r1_x * adf1_y - r1_y * adf1_x));
   const Real aQ0_0 = aQp0 + an1c_z;
   const Real aQ1_0 = aQp1 - adn1_z;
@@ -611,12 +611,12 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t21 = piston_pinbx1_x * t20;
   const Real t24 = piston_pinbx_y + (r1_y + piston_pinbx_y * t21);
   const Real t26 = t21 * state.z[0];
+  const Real t27 = Real(0.045) * state.z[0];
   const Real w1_z = state.z[0] + t26;
-  const Real t28 = Real(0.045) * state.z[0];
-  const Real ra1o_y = state.z[0] * (s0 * t28);
-  const Real t32 = t28 * (c0 * state.z[0]);
-  const Real t37 = t20 * (ra1o_y + Real(0.145) * (w1_z * (s1 * w1_z)));
-  const Real t40 = piston_pinbx_y * t37 + t21 * t32;
+  const Real ra1o_y = t27 * (s0 * state.z[0]);
+  const Real t32 = t27 * (c0 * state.z[0]);
+  const Real t36 = t20 * (ra1o_y + w1_z * (piston_pinbx_y * w1_z));
+  const Real t39 = piston_pinbx_y * t36 + t21 * t32;
   const Real h1b_x = c1 * Real(0.02475);
   const Real h1b_y = s1 * Real(0.02475);
   const Real D1 = t5 * Real(0.00111375);
@@ -628,21 +628,21 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real rQp0 = h0_y * Real(9.81);
   const Real ra1o_x = t32 - Real(9.81);
   const Real zw_1 = t26 * (state.z[0] + w1_z);
-  const Real rdf1_x = t37 * h1b_y + h1b_x * zw_1;
-  const Real rdf1_y = t37 * h1b_x - h1b_y * zw_1;
-  const Real rdn1_z = t37 * Real(0.00311375);
-  const Real rdf2t_z = t40 * Real(0.48);
+  const Real rdf1_x = t36 * h1b_y + h1b_x * zw_1;
+  const Real rdf1_y = t36 * h1b_x - h1b_y * zw_1;
+  const Real rdn1_z = t36 * Real(0.00311375);
+  const Real rdf2t_z = t39 * Real(0.48);
   const Real rQ1_0 = h1b_y * ra1o_x + (ra1o_y * h1b_x - rdn1_z);
   const Real tau_2_0 = rdf2t_z - input.u[0] + Real(4.7088);
-  const Real t98 = (rdn1_z + (rQp0 - (r1_x * rdf1_y - (r1_y * rdf1_x + (input.u[1] - (t21 * rQ1_0 - t24 *
+  const Real t97 = (rdn1_z + (rQp0 - (r1_x * rdf1_y - (r1_y * rdf1_x + (input.u[1] - (t21 * rQ1_0 - t24 *
       tau_2_0)))))) / (T2 * Real(2.0));
-  const Real ra1o_x_2 = ra1o_x + r1_y * t98;
-  const Real ra1o_y_2 = ra1o_y - r1_x * t98;
-  const Real rdf2t_z_2 = Real(0.48) * (t40 - t24 * t98);
+  const Real ra1o_x_2 = ra1o_x + r1_y * t97;
+  const Real ra1o_y_2 = ra1o_y - r1_x * t97;
+  const Real rdf2t_z_2 = Real(0.48) * (t39 - t24 * t97);
   const Real tau_2_0_2 = Real(4.7088) - (input.u[0] - rdf2t_z_2);
   lambda[0] = tau_2_0_2;
   lambda[1] = t20 * (h1b_y * ra1o_x_2 + (h1b_x * ra1o_y_2 - (piston_pinbx_y * tau_2_0_2 - Real(0.00311375) *
-      (t21 * t98 - (t37 - t98)))));
+      (t21 * t97 - (t36 - t97)))));
 }
 
 // `input` may be a function that gives the Input at the state of a stage.

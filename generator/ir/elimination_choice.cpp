@@ -44,6 +44,8 @@ std::vector<std::uint32_t> prefix_first(std::size_t inner, std::size_t prefix) {
   return order;
 }
 
+constexpr std::size_t kLarge = 5000;  // values from which on few orders are tried
+
 /// An order and what it takes.
 struct Tried {
   EliminationTrials::Order order;
@@ -53,16 +55,16 @@ struct Tried {
 bool takes_less(const Tried& a, const Tried& b) { return a.operations < b.operations; }
 
 /// Of all orders those that take least are improved by moving vertices about, and of these again those that take least.
-EliminationTrials::Order best_of(EliminationTrials& trials, std::vector<Tried> tried, bool is_large) {
+EliminationTrials::Order best_of(EliminationTrials& trials, std::vector<Tried> tried, bool is_thorough) {
   struct Round {
     std::size_t orders;
     EliminationTrials::Effort each;
   };
-  const std::vector<Round> some = {{8, {1'000'000, 4}}, {3, {4'000'000, 6}}, {1, {32'000'000, 24}}},
-                           few = {{1, {4'000'000, 4}}};
+  const std::vector<Round> brief = {{1, {4'000'000, 24}}},
+                           thorough = {{8, {1'000'000, 4}}, {3, {4'000'000, 6}}, {1, {32'000'000, 24}}};
   const auto sort = [&tried] { std::stable_sort(tried.begin(), tried.end(), takes_less); };
   sort();
-  for (const Round& round : is_large ? few : some) {
+  for (const Round& round : is_thorough ? thorough : brief) {
     tried.resize(std::min(tried.size(), round.orders));
     for (Tried& t : tried) {
       t.order = trials.improved(std::move(t.order), round.each);
@@ -103,7 +105,6 @@ Surroundings within(const Program& program, const LeafValue& leaf) {
 std::vector<std::uint32_t> elimination_order(const Program& program, std::size_t inner,
                                              const std::vector<Partials>& operands,
                                              const Surroundings& surroundings) {
-  constexpr std::size_t kLarge = 5000;  // values from which on few choices are tried
   const auto share = [inner](double of) { return static_cast<std::size_t>(of * static_cast<double>(inner)); };
   if (surroundings.forward) return prefix_first(inner, share(*surroundings.forward));
   const std::vector<Residue> values = residues(program, surroundings.leaf);
@@ -132,7 +133,7 @@ std::vector<std::uint32_t> elimination_order(const Program& program, std::size_t
       if (std::none_of(tried.begin(), tried.end(), is_it)) tried.push_back({order, trials.operations(order)});
     }
   if (is_simple) return std::min_element(tried.begin(), tried.end(), takes_less)->order;
-  return best_of(trials, std::move(tried), is_large);
+  return best_of(trials, std::move(tried), surroundings.is_thorough && !is_large);
 }
 
 }  // namespace jourdain::ir

@@ -18,6 +18,7 @@ struct Surroundings {
   std::function<bool(LeafKind, std::size_t)> is_fixed = is_made_with_the_model;  ///< leaves
   LeafFingerprint leaf;             ///< of what stands for leaves
   std::vector<Fingerprint> values;  ///< of what is computed anyway
+  bool is_thorough = false;         ///< orders are looked for longer, from several that begin differently
   /// This share of the program leaves operands first, then the others results first: nothing is looked for.
   std::optional<double> forward;
 };

@@ -188,12 +188,14 @@ class Assembly {
   ir::Surroundings alone() const {
     ir::Surroundings result;
     result.forward = forward_;
+    result.is_thorough = true;
     return result;
   }
 
   /// What is here already, and what stands for accelerations and factors.
   ir::Surroundings surroundings() const {
     ir::Surroundings result = ir::within(builder_.program(), leaf_values());
+    result.is_thorough = true;
     result.forward = forward_;
     return result;
   }

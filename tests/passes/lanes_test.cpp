@@ -136,6 +136,25 @@ TEST(Lanes, DoNotWaitForEachOther) {
   EXPECT_EQ(saved_by_lanes(after), 9u) << print(after);  // x², 1.5 v and their product
 }
 
+/// Each sum waits for that of the other limb: a thousand are given up.
+TEST(Lanes, GiveUpManyThatWaitForEachOther) {
+  constexpr std::size_t kSteps = 1000, kJoints = 8;
+  Builder builder;
+  Signed carried = builder.leaf(LeafKind::kParameter, 0);
+  for (std::size_t step = 0; step < kSteps; ++step)
+    for (std::size_t l = 0; l < 2; ++l) {
+      const std::size_t joint = l * kJoints + step % kJoints;
+      const Signed x = builder.leaf(LeafKind::kPosition, joint), v = builder.leaf(LeafKind::kVelocity, joint),
+                   number = builder.literal(1.5 + double(step));
+      carried = builder.add(builder.multiply(builder.multiply(x, x), builder.multiply(v, number)),
+                            builder.multiply(carried, x));
+    }
+  builder.output("carried", -1, -1, carried);
+  const Program before = builder.finish("chain"), after = in_lanes(before, {limbs_of(2, kJoints)}, kAny);
+  expect_same(before, after);
+  EXPECT_EQ(saved_by_lanes(after), 2 * kSteps + kJoints);  // numbers times v, these times x², and x²
+}
+
 /// Signs that no choice of lane 1 turns into those of lane 0: x a + y b and x a − y b, with a and b in a product too.
 TEST(Lanes, LeaveWhatDiffersBySigns) {
   Builder builder;
