@@ -222,7 +222,7 @@ EliminationTrials::Order EliminationTrials::links() {
   std::vector<bool> is_taken(inner_, false);
   start({});
   begin_trial(Purpose::kTry);
-  for (std::size_t before = kNowhere; before != order.size();) {
+  for (std::size_t before = 1; before != order.size();) {  // at first anything but none
     before = order.size();
     for (std::uint32_t v = 0; v < inner_; ++v)
       if (!is_taken[v] && is_link(v)) {
@@ -362,9 +362,9 @@ void EliminationTrials::sweep(Order& order, Draws& draws, std::size_t work) {
   }
 }
 
-/// By vertex, where it leaves.
+/// By vertex, where it leaves; what edges join is in the order.
 std::vector<std::size_t> EliminationTrials::positions(const Order& order) const {
-  std::vector<std::size_t> result(inner_, kNowhere);
+  std::vector<std::size_t> result(inner_);
   for (std::size_t k = 0; k < order.size(); ++k) result[order[k]] = k;
   return result;
 }

@@ -56,7 +56,6 @@ class EliminationTrials {
   };
   class Draws;
   static constexpr std::size_t kRemoval = 4;  ///< what removing a vertex costs besides, in products
-  static constexpr std::size_t kNowhere = ~std::size_t{0};
   static constexpr std::uint32_t kUnknown = 1, kKnown = 2;  ///< stamps
 
   /// What is to be done with values that steps compute.

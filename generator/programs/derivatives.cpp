@@ -185,16 +185,12 @@ class Assembly {
   }
 
   /// Nothing but how an order is chosen.
-  ir::Surroundings alone() const {
-    ir::Surroundings result;
-    result.forward = forward_;
-    result.is_thorough = true;
-    return result;
-  }
+  ir::Surroundings alone() const { return chosen({}); }
 
   /// What is here already, and what stands for accelerations and factors.
-  ir::Surroundings surroundings() const {
-    ir::Surroundings result = ir::within(builder_.program(), leaf_values());
+  ir::Surroundings surroundings() const { return chosen(ir::within(builder_.program(), leaf_values())); }
+
+  ir::Surroundings chosen(ir::Surroundings result) const {
     result.is_thorough = true;
     result.forward = forward_;
     return result;

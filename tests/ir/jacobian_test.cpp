@@ -29,6 +29,7 @@ class Orders : public ::testing::TestWithParam<std::optional<double>> {
                                         const std::vector<Seed>& seeds) {
     Surroundings surroundings;
     surroundings.forward = GetParam();
+    surroundings.is_thorough = true;
     return differentiate(builder, values, seeds, {}, surroundings);
   }
 };
