@@ -62,8 +62,8 @@ TEST(EliminationSearch, FindsOrdersThatTakeAboutAsFewOperationsAsAnyOther) {
   EXPECT_GE(at_first - least, kGraphs / 2) << "there is nothing to find";
 }
 
-/// Many vertices, of which most links stay where they are: no order is known to be best, but the one that is found takes a
-/// tenth less than that from which it begins.
+/// Many vertices, of which most links stay where they are: no order is known to be best, but the one that is found
+/// takes a tenth less than that from which it begins.
 TEST(EliminationSearch, FindsOrdersOfManyVertices) {
   constexpr std::size_t kMany = 600, kFew = 20;
   std::mt19937 random(3);
