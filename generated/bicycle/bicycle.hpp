@@ -32,7 +32,7 @@
 //   linearly_implicit_euler_step, ros34pw2_step, rosw43_step, rodas4_step
 // Checked before this file was written
 // - validated at 8 states: in 77 digits everything below agrees to 1e-40 of its scale (what rounding can move
-//   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 1.7e-16 of the
+//   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 1.8e-16 of the
 //   sum of absolute terms, other errors are 1.4e-15 of their scale; cond(M) up to 1.5e+03
 // - the symbolic equations (M, k_bar, q_bar, Z z, energies): the numeric reference
 // - initial_state: the assembled start
@@ -243,7 +243,7 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
 /// The loops add their forces: M zdot = k_bar - q_bar - G^T lambda, see constraint_forces.
-/// 2026 operations (1165 mul, 843 add and sub, 16 div), 2 sin and cos.
+/// 2020 operations (1159 mul, 843 add and sub, 16 div), 2 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[9]) noexcept;
@@ -251,7 +251,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
 /// The loops' forces -G^T lambda count as missing.
-/// 352 operations (194 mul, 158 add and sub, 0 div), 2 sin and cos.
+/// 351 operations (193 mul, 158 add and sub, 0 div), 2 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[9], Real
     (&tau)[9]) noexcept;
@@ -281,14 +281,14 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
 
 /// Multipliers lambda of M zdot = k_bar - q_bar - G^T lambda over all coordinates of the tree; the force of the
 /// constraints is -G^T lambda. N; N m for rows without a length.
-/// 1883 operations (1089 mul, 776 add and sub, 16 div), 2 sin and cos.
+/// 1877 operations (1083 mul, 776 add and sub, 16 div), 2 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void constraint_forces(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&lambda)[6]) noexcept;
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 10316 operations. For inputs sampled at the stages include bicycle_kernels.hpp and pass a function of the
+/// 10292 operations. For inputs sampled at the stages include bicycle_kernels.hpp and pass a function of the
 /// state instead of `input`.
 template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;

@@ -302,10 +302,10 @@ void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[10
   ydot[0] = state.z[0];
   ydot[1] = state.z[1];
   ydot[2] = state.z[2];
-  ydot[3] = -(t6 * state.z[3] + t7 * state.z[4] + t8 * state.z[5]);
-  ydot[4] = t5 * state.z[3] - t8 * state.z[4] + t7 * state.z[5];
-  ydot[5] = t8 * state.z[3] + t5 * state.z[4] - t6 * state.z[5];
-  ydot[6] = -(t7 * state.z[3] - t6 * state.z[4] - t5 * state.z[5]);
+  ydot[3] = -(t8 * state.z[5] + (t6 * state.z[3] + t7 * state.z[4]));
+  ydot[4] = t7 * state.z[5] + (t5 * state.z[3] - t8 * state.z[4]);
+  ydot[5] = -(t6 * state.z[5] - (t8 * state.z[3] + t5 * state.z[4]));
+  ydot[6] = t5 * state.z[5] - (t7 * state.z[3] - t6 * state.z[4]);
   ydot[7] = state.z[6];
   ydot[8] = state.z[7];
   ydot[9] = state.z[8];
@@ -357,15 +357,16 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[9
   const Real S2c_xy = S2b_xy * Real(0.9510565162951535) - (S2b_xz * Real(0.3090169943749474) + h2b_x *
       model.r_steer_x);
   const Real t81 = h2at2_z - model.h_z;
-  const Real S2c_xz = Real(0.9510565162951535) * S2at2r0_z - (model.r_steer_x * t81 + ((h2at2_x + model.c9) *
-      model.r_steer_z + Real(0.3090169943749474) * (S2at2r0_y - model.SR_z)) + Real(25.349999999999998));
+  const Real S2c_xz = Real(0.3090169943749474) * (S2at2r0_y - model.SR_z) - (Real(0.9510565162951535) *
+      S2at2r0_z - Real(25.349999999999998) - ((h2at2_x + model.c9) * model.r_steer_z + model.r_steer_x *
+      t81));
   const Real S2c_yy = S2b_xx - Real(0.5002999999999995);
-  const Real S2c_yz = S2b_xz * Real(0.9510565162951535) + (S2b_xy * Real(0.3090169943749474) - h2b_x *
+  const Real S2c_yz = S2b_xy * Real(0.3090169943749474) + (S2b_xz * Real(0.9510565162951535) - h2b_x *
       model.r_steer_z);
-  const Real S1c_xx = Real(0.3090169943749474) * (S2at2r0_z + model.SR_x) + (Real(0.9510565162951535) *
-      S2at2r0_y + (h2at2_x + model.h_x) * model.c14) + model.c16;
-  const Real S1c_zz = Real(0.9510565162951535) * (t52 - model.c18) + (Real(0.3090169943749474) * S2at2r2_y -
-      t81 * model.c17) - model.c19;
+  const Real S1c_xx = Real(0.9510565162951535) * S2at2r0_y + (Real(0.3090169943749474) * (S2at2r0_z +
+      model.SR_x) + ((h2at2_x + model.h_x) * model.c14 + model.c16));
+  const Real S1c_zz = Real(0.3090169943749474) * S2at2r2_y + (Real(0.9510565162951535) * (t52 - model.c18) -
+      (t81 * model.c17 + model.c19));
   const Real S0b_zz = S2c_yy - S1c_xx;
   const Real Jx0 = S2c_yy + S1c_zz;
   const Real Jy0 = S1c_xx - S1c_zz;
@@ -374,11 +375,11 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[9
   const Real p_7_2l_x = h2b_y * model.r_steer_z;
   const Real p_7_2l_z = h2b_y * model.r_steer_x;
   const Real p_7_2n_x = p_7_2l_x - (t55 + model.c20);
-  const Real p_7_2n_y = model.r_steer_x * p_7_2f_z + (S2b_xz - model.r_steer_z * p_7_2f_x);
+  const Real p_7_2n_y = model.r_steer_z * p_7_2f_x - (S2b_xz + model.r_steer_x * p_7_2f_z);
   const Real p_7_2n_z = p_7_2l_z + (t52 - model.c21);
-  const Real p_7_0f_x = q0r0_y * h2b_y + (q0r0_x * p_7_2f_x + q0r0_z * p_7_2f_z);
-  const Real p_7_0f_y = q0r1_y * h2b_y + (q0r1_x * p_7_2f_x - q0r1_z * p_7_2f_z);
-  const Real p_7_0f_z = q0r2_y * h2b_y - (q0r2_x * p_7_2f_x + q0r2_z * p_7_2f_z);
+  const Real p_7_0f_x = q0r0_z * p_7_2f_z + (q0r0_x * p_7_2f_x + q0r0_y * h2b_y);
+  const Real p_7_0f_y = q0r1_z * p_7_2f_z - (q0r1_x * p_7_2f_x + q0r1_y * h2b_y);
+  const Real p_7_0f_z = q0r2_z * p_7_2f_z + (q0r2_x * p_7_2f_x - q0r2_y * h2b_y);
   const Real p_8_3N_x = c2 * Real(0.28);
   const Real p_8_3N_y = s2 * Real(0.28);
   const Real p_8_2n_x = Real(0.9510565162951535) * p_8_3N_y;
@@ -407,25 +408,25 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[9
   M[1][4] = M[4][1] = -pfree_0_1f_y;
   M[1][5] = M[5][1] = -pfree_0_2f_y;
   M[1][6] = M[6][1] = Real(0.0);
-  M[1][7] = M[7][1] = -p_7_0f_y;
+  M[1][7] = M[7][1] = p_7_0f_y;
   M[1][8] = M[8][1] = Real(0.0);
   M[2][2] = Real(94.0);
   M[2][3] = M[3][2] = pfree_0_0f_z;
   M[2][4] = M[4][2] = -pfree_0_1f_z;
   M[2][5] = M[5][2] = -pfree_0_2f_z;
   M[2][6] = M[6][2] = Real(0.0);
-  M[2][7] = M[7][2] = p_7_0f_z;
+  M[2][7] = M[7][2] = -p_7_0f_z;
   M[2][8] = M[8][2] = Real(0.0);
   M[3][3] = -Jx0;
   M[3][4] = M[4][3] = S2c_xy;
-  M[3][5] = M[5][3] = -S2c_xz;
+  M[3][5] = M[5][3] = S2c_xz;
   M[3][6] = M[6][3] = Real(0.0);
   M[3][7] = M[7][3] = p_7_2n_x;
   M[3][8] = M[8][3] = -p_8_2n_x;
   M[4][4] = Jy0;
   M[4][5] = M[5][4] = -S2c_yz;
   M[4][6] = M[6][4] = Real(0.12);
-  M[4][7] = M[7][4] = -p_7_2n_y;
+  M[4][7] = M[7][4] = p_7_2n_y;
   M[4][8] = M[8][4] = p_8_3N_x;
   M[5][5] = -S0b_zz;
   M[5][6] = M[6][5] = Real(0.0);
@@ -485,78 +486,78 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[9]) noe
   const Real S2c_xy = S2b_xy * Real(0.9510565162951535) - (S2b_xz * Real(0.3090169943749474) + h2b_x *
       model.r_steer_x);
   const Real t87 = h2at2_z - model.h_z;
-  const Real S2c_xz = Real(0.9510565162951535) * S2at2r0_z - (model.r_steer_x * t87 + ((h2at2_x + model.c9) *
-      model.r_steer_z + Real(0.3090169943749474) * (S2at2r0_y - model.SR_z)) + Real(25.349999999999998));
+  const Real S2c_xz = Real(0.3090169943749474) * (S2at2r0_y - model.SR_z) - (Real(0.9510565162951535) *
+      S2at2r0_z - Real(25.349999999999998) - ((h2at2_x + model.c9) * model.r_steer_z + model.r_steer_x *
+      t87));
   const Real S2c_yy = S2b_xx - Real(0.5002999999999995);
-  const Real S2c_yz = S2b_xz * Real(0.9510565162951535) + (S2b_xy * Real(0.3090169943749474) - h2b_x *
+  const Real S2c_yz = S2b_xy * Real(0.3090169943749474) + (S2b_xz * Real(0.9510565162951535) - h2b_x *
       model.r_steer_z);
-  const Real S1c_xx = Real(0.3090169943749474) * (S2at2r0_z + model.SR_x) + (Real(0.9510565162951535) *
-      S2at2r0_y + (h2at2_x + model.h_x) * model.c14) + model.c16;
-  const Real S1c_zz = Real(0.9510565162951535) * (t58 - model.c18) + (Real(0.3090169943749474) * S2at2r2_y -
-      t87 * model.c17) - model.c19;
+  const Real S1c_xx = Real(0.9510565162951535) * S2at2r0_y + (Real(0.3090169943749474) * (S2at2r0_z +
+      model.SR_x) + ((h2at2_x + model.h_x) * model.c14 + model.c16));
+  const Real S1c_zz = Real(0.3090169943749474) * S2at2r2_y + (Real(0.9510565162951535) * (t58 - model.c18) -
+      (t87 * model.c17 + model.c19));
   const Real w2p_y = state.z[5] * Real(0.3090169943749474) - state.z[3] * Real(0.9510565162951535);
   const Real w2p_z = state.z[3] * Real(0.3090169943749474) + state.z[5] * Real(0.9510565162951535);
   const Real w2_z = state.z[7] + w2p_z;
   const Real w3pp_y = s2 * state.z[4] - c2 * w2p_y;
-  const Real kSu0_x = state.z[4] * S2c_xy - (state.z[3] * S1c_xx + state.z[5] * S2c_xz);
-  const Real kSu0_y = state.z[4] * S2c_yy + (state.z[3] * S2c_xy - state.z[5] * S2c_yz);
-  const Real kSu0_z = state.z[4] * S2c_yz + (state.z[3] * S2c_xz - state.z[5] * S1c_zz);
-  const Real kuh0 = state.z[4] * h2b_x + (state.z[3] * h2c_x - state.z[5] * h2c_z);
+  const Real kSu0_x = state.z[5] * S2c_xz - (state.z[3] * S1c_xx - state.z[4] * S2c_xy);
+  const Real kSu0_y = state.z[5] * S2c_yz - (state.z[3] * S2c_xy + state.z[4] * S2c_yy);
+  const Real kSu0_z = state.z[3] * S2c_xz - (state.z[4] * S2c_yz - state.z[5] * S1c_zz);
+  const Real kuh0 = state.z[5] * h2c_z - (state.z[3] * h2c_x + state.z[4] * h2b_x);
   const Real kL0w00 = state.z[3] * state.z[3];
   const Real kL0w11 = state.z[4] * state.z[4];
   const Real kL0U2_z = kL0w00 + kL0w11;
   const Real kL0w22 = state.z[5] * state.z[5];
   const Real kuw0 = kL0U2_z + kL0w22;
   const Real z2_1 = Real(2.0) * state.z[6];
-  const Real kdn1_x = state.z[3] * z2_1 * Real(0.06);
-  const Real kdn1_y = Real(0.06) * (state.z[5] * z2_1);
-  const Real kL0w01 = state.z[3] * state.z[4];
+  const Real kdn1_x = z2_1 * (state.z[3] * Real(0.06));
+  const Real kdn1_y = z2_1 * (state.z[5] * Real(0.06));
   const Real kL0w02 = state.z[3] * state.z[5];
-  const Real kL0w12 = state.z[4] * state.z[5];
   const Real kL0U0_x = kL0w11 + kL0w22;
   const Real ka2o_x = model.r_steer_x * kL0U0_x + model.r_steer_z * kL0w02;
-  const Real ka2o_y = model.r_steer_x * kL0w01 - model.r_steer_z * kL0w12;
+  const Real ka2o_y = model.r_steer_x * (state.z[3] * state.z[4]) - model.r_steer_z * (state.z[4] *
+      state.z[5]);
   const Real ka2o_z = model.r_steer_x * kL0w02 + model.r_steer_z * kL0U2_z;
   const Real ka2_y = Real(0.3090169943749474) * ka2o_z + Real(0.9510565162951535) * ka2o_x;
-  const Real kKx2 = S2b_xy * w2p_y - (state.z[4] * S2b_xx - S2b_xz * w2p_z);
-  const Real kKy2 = S2b_yz * w2p_z - (state.z[4] * S2b_xy + S2b_yy * w2p_y);
+  const Real kKx2 = state.z[4] * S2b_xx - (S2b_xy * w2p_y + S2b_xz * w2p_z);
+  const Real kKy2 = S2b_yy * w2p_y + (state.z[4] * S2b_xy - S2b_yz * w2p_z);
   const Real z2_2 = Real(2.0) * state.z[7];
   const Real zz_2 = state.z[7] * state.z[7];
   const Real zw_2 = state.z[7] * (w2p_z + w2_z);
   const Real kdf2_x = h2b_x * zw_2;
   const Real kdf2_y = h2b_y * zw_2;
-  const Real kdf2_z = model.front_h_y * (w3pp_y * z2_2);
+  const Real kdf2_z = w3pp_y * (model.front_h_y * z2_2);
   const Real kKx3 = w3pp_y * Real(0.14);
   const Real kQp3 = z2_2 * kKx3;
   const Real z2_3 = Real(2.0) * state.z[8];
-  const Real kdn3_x = Real(0.14) * (w2_z * z2_3);
+  const Real kdn3_x = w2_z * (Real(0.14) * z2_3);
   const Real kdn3_y = kKx3 * z2_3;
   const Real kn2b_x = s2 * kdn3_x;
   const Real kn2b_y = c2 * kdn3_x;
-  const Real kn2_y = kKx2 * z2_2 + (S2b_xz * zz_2 - kn2b_y);
+  const Real kn2_y = kKx2 * z2_2 - (S2b_xz * zz_2 - kn2b_y);
   const Real kf2p_x = Real(0.3090169943749474) * kdf2_z - Real(0.9510565162951535) * kdf2_y;
   const Real kf2p_z = Real(0.3090169943749474) * kdf2_y + Real(0.9510565162951535) * kdf2_z;
-  const Real kf0_x = h2c_x * kuw0 - (state.z[3] * kuh0 + kf2p_x);
-  const Real kf0_y = h2b_x * kuw0 - (state.z[4] * kuh0 - kdf2_x);
-  const Real kf0_z = h2c_z * kuw0 + (state.z[5] * kuh0 + kf2p_z);
-  const Real kn0_x = state.z[5] * kSu0_y + (state.z[4] * kSu0_z + (kdn1_y - (Real(0.3090169943749474) * kdn3_y
-      + (Real(0.9510565162951535) * kn2_y - model.r_steer_z * kdf2_x))));
-  const Real kn0_y = state.z[5] * kSu0_x + (state.z[3] * kSu0_z - (S2b_yz * zz_2 + (kKy2 * z2_2 + (kn2b_x +
-      (model.r_steer_x * kf2p_z + model.r_steer_z * kf2p_x)))));
-  const Real kn0_z = state.z[4] * kSu0_x - (state.z[3] * kSu0_y + (kdn1_x - (Real(0.3090169943749474) * kn2_y
-      - (Real(0.9510565162951535) * kdn3_y - model.r_steer_x * kdf2_x))));
-  const Real kQ2_0 = h2b_x * ka2_y + (state.z[4] * kKy2 + (h2b_y * ka2o_y + (w2p_y * kKx2 + kdn3_y)));
-  const Real kext0f_x = q0r0_y * kf0_y - (q0r0_x * kf0_x + q0r0_z * kf0_z);
-  const Real kext0f_y = q0r1_y * kf0_y - (q0r1_x * kf0_x - q0r1_z * kf0_z);
-  const Real kext0f_z = q0r2_y * kf0_y + (q0r2_x * kf0_x + q0r2_z * kf0_z);
+  const Real kf0_x = state.z[3] * kuh0 + (h2c_x * kuw0 - kf2p_x);
+  const Real kf0_y = state.z[4] * kuh0 + (h2b_x * kuw0 + kdf2_x);
+  const Real kf0_z = state.z[5] * kuh0 - (h2c_z * kuw0 + kf2p_z);
+  const Real kn0_x = state.z[4] * kSu0_z - (Real(0.9510565162951535) * kn2_y - (state.z[5] * kSu0_y +
+      (Real(0.3090169943749474) * kdn3_y - (kdn1_y + model.r_steer_z * kdf2_x))));
+  const Real kn0_y = state.z[5] * kSu0_x - (state.z[3] * kSu0_z + (model.r_steer_x * kf2p_z + (S2b_yz * zz_2 +
+      kn2b_x) - (kKy2 * z2_2 - model.r_steer_z * kf2p_x)));
+  const Real kn0_z = state.z[4] * kSu0_x - (Real(0.3090169943749474) * kn2_y - (state.z[3] * kSu0_y -
+      (Real(0.9510565162951535) * kdn3_y + (kdn1_x - model.r_steer_x * kdf2_x))));
+  const Real kQ2_0 = state.z[4] * kKy2 + (w2p_y * kKx2 - (kdn3_y + (h2b_x * ka2_y + h2b_y * ka2o_y)));
+  const Real kext0f_x = q0r0_z * kf0_z - (q0r0_x * kf0_x - q0r0_y * kf0_y);
+  const Real kext0f_y = q0r1_z * kf0_z + (q0r1_x * kf0_x - q0r1_y * kf0_y);
+  const Real kext0f_z = q0r2_z * kf0_z - (q0r2_x * kf0_x + q0r2_y * kf0_y);
   k[0] = kext0f_x;
-  k[1] = -kext0f_y;
-  k[2] = kext0f_z;
-  k[3] = kn0_x;
+  k[1] = kext0f_y;
+  k[2] = -kext0f_z;
+  k[3] = -kn0_x;
   k[4] = -kn0_y;
   k[5] = kn0_z;
   k[6] = Real(0.0);
-  k[7] = -kQ2_0;
+  k[7] = kQ2_0;
   k[8] = kQp3;
 }
 
@@ -571,7 +572,7 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real q023 = state.y[5] * q0d3;
   const Real q001 = q0d1 * state.y[3];
   const Real q0r2_y = q023 + q001;
-  const Real q0r2_z = q011 + q022 - Real(1.0);
+  const Real q0r2_z = q022 + (q011 - Real(1.0));
   const Real q013 = state.y[4] * q0d3;
   const Real q002 = q0d2 * state.y[3];
   const Real q0r2_x = q013 - q002;
@@ -645,7 +646,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t63 = q0r2_y * s2 + c2 * (q0r2_z * Real(0.3090169943749474) + q0r2_x * Real(0.9510565162951535));
   const Real t70 = front_contactbx2p_z - front_contactbd2p_z * t57;
   const Real t72 = front_contactbx2p_x - front_contactbd2p_x * t57;
-  const Real t76 = q0d2 * t49 + (q0d1 * t48 - (q0d3 * t50 + state.y[3] * state.y[3]));
+  const Real t76 = q0d3 * t50 + state.y[3] * state.y[3] - (q0d1 * t48 + q0d2 * t49);
   const Real q012 = q0d1 * state.y[5];
   const Real t85 = front_contactbx3_x + c2 * t57;
   const Real t87 = t57 * t63 + model.r_front_y * front_contactbd0p_z;
@@ -654,7 +655,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t91 = q0r2_x * t89;
   const Real q033 = state.y[6] * q0d3;
   const Real q003 = q0d3 * state.y[3];
-  const Real q0r0_x = Real(1.0) - (q022 + q033);
+  const Real q0r0_x = q033 + (q022 - Real(1.0));
   const Real q0r0_y = q012 - q003;
   const Real q0r1_x = q012 + q003;
   const Real q0r1_y = t14 + q033;
@@ -674,26 +675,26 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real front_contactc_y = t57 * front_contactbd0p_y;
   const Real t129 = t44 / front_contactup;
   const Real front_contactc_z = model.front_radius * t129;
-  const Real front_contacts1bf2_y = Real(0.3090169943749474) * q0r0_z - Real(0.9510565162951535) * q0r0_x;
+  const Real front_contacts1bf2_y = Real(0.3090169943749474) * q0r0_z + Real(0.9510565162951535) * q0r0_x;
   const Real front_contacts1bn0_x = q0r1_x * front_contactc_z - q0r2_x * front_contactc_y;
   const Real front_contacts1bn0_y = q0r1_y * front_contactc_z + q0r2_y * front_contactc_y;
   const Real front_contacts1bn0_z = q0r1_z * front_contactc_z + q0r2_z * front_contactc_y;
   const Real front_contacts1bn2_y = Real(0.3090169943749474) * front_contacts1bn0_z - Real(0.9510565162951535)
       * front_contacts1bn0_x;
   const Real front_contacts1bn3p_x = c2 * front_contacts1bn0_y - s2 * front_contacts1bn2_y;
-  const Real front_contacts1bm_z = front_contactbx3_x * front_contacts1bf2_y + (front_contactbx3_y * q0r0_y +
-      (Real(0.3090169943749474) * front_contacts1bn0_x + Real(0.9510565162951535) * front_contacts1bn0_z));
+  const Real front_contacts1bm_z = Real(0.9510565162951535) * front_contacts1bn0_z + (Real(0.3090169943749474)
+      * front_contacts1bn0_x + (front_contactbx3_y * q0r0_y + front_contactbx3_x * front_contacts1bf2_y));
   const Real front_contactbd0p_x = c2 * q0r0_y + s2 * front_contacts1bf2_y;
   const Real front_contactc_x = t57 * front_contactbd0p_x;
   const Real front_contacts2bf2_y = Real(0.3090169943749474) * q0r1_z - Real(0.9510565162951535) * q0r1_x;
-  const Real front_contacts2bn0_x = q0r0_x * front_contactc_z - q0r2_x * front_contactc_x;
+  const Real front_contacts2bn0_x = q0r0_x * front_contactc_z + q0r2_x * front_contactc_x;
   const Real front_contacts2bn0_y = q0r0_y * front_contactc_z - q0r2_y * front_contactc_x;
   const Real front_contacts2bn0_z = q0r0_z * front_contactc_z + q0r2_z * front_contactc_x;
-  const Real front_contacts2bn2_y = Real(0.3090169943749474) * front_contacts2bn0_z - Real(0.9510565162951535)
+  const Real front_contacts2bn2_y = Real(0.3090169943749474) * front_contacts2bn0_z + Real(0.9510565162951535)
       * front_contacts2bn0_x;
   const Real front_contacts2bn3p_x = c2 * front_contacts2bn0_y + s2 * front_contacts2bn2_y;
-  const Real front_contacts2bm_z = model.r_front_y * front_contactbd0p_y - (Real(0.3090169943749474) *
-      front_contacts2bn0_x + Real(0.9510565162951535) * front_contacts2bn0_z);
+  const Real front_contacts2bm_z = Real(0.9510565162951535) * front_contacts2bn0_z - (Real(0.3090169943749474)
+      * front_contacts2bn0_x + model.r_front_y * front_contactbd0p_y);
   const Real S2b_t = s2 * model.S2b_d;
   const Real S2b_xx = s2 * S2b_t - Real(0.003500000000000002);
   const Real S2b_xy = c2 * S2b_t;
@@ -712,23 +713,23 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real h2c_x = h2at2_x + model.c6;
   const Real h2c_z = h2at2_z + model.c7;
   const Real t237 = h2b_x * model.r_steer_x;
-  const Real S2c_xy = t237 + (Real(0.3090169943749474) * S2b_xz - Real(0.9510565162951535) * S2b_xy);
+  const Real S2c_xy = Real(0.9510565162951535) * S2b_xy - (Real(0.3090169943749474) * S2b_xz + t237);
   const Real t248 = h2at2_z - model.h_z;
-  const Real S2c_xz = Real(0.3090169943749474) * (S2at2r0_y - model.SR_z) + ((h2at2_x + model.c9) *
-      model.r_steer_z - (Real(0.9510565162951535) * S2at2r0_z - model.r_steer_x * t248)) +
-      Real(25.349999999999998);
+  const Real S2c_xz = Real(0.3090169943749474) * (S2at2r0_y - model.SR_z) - (Real(0.9510565162951535) *
+      S2at2r0_z - Real(25.349999999999998) - ((h2at2_x + model.c9) * model.r_steer_z + model.r_steer_x *
+      t248));
   const Real S2c_yy = S2b_xx - Real(0.5002999999999995);
   const Real t257 = h2b_x * model.r_steer_z;
-  const Real S2c_yz = t257 - (Real(0.3090169943749474) * S2b_xy + Real(0.9510565162951535) * S2b_xz);
-  const Real S1c_xx = (h2at2_x + model.h_x) * model.c14 + (Real(0.9510565162951535) * S2at2r0_y +
-      Real(0.3090169943749474) * (S2at2r0_z + model.SR_x)) + model.c16;
-  const Real S1c_zz = t248 * model.c17 - (Real(0.3090169943749474) * S2at2r2_y + Real(0.9510565162951535) *
-      (t219 - model.c18)) + model.c19;
+  const Real S2c_yz = Real(0.3090169943749474) * S2b_xy + (Real(0.9510565162951535) * S2b_xz - t257);
+  const Real S1c_xx = Real(0.9510565162951535) * S2at2r0_y + (Real(0.3090169943749474) * (S2at2r0_z +
+      model.SR_x) + ((h2at2_x + model.h_x) * model.c14 + model.c16));
+  const Real S1c_zz = Real(0.3090169943749474) * S2at2r2_y + (Real(0.9510565162951535) * (t219 - model.c18) -
+      (t248 * model.c17 + model.c19));
   const Real p_7_2l_x = h2b_y * model.r_steer_z;
   const Real p_7_2l_z = h2b_y * model.r_steer_x;
-  const Real p_7_2n_x = t222 - p_7_2l_x + model.c20;
+  const Real p_7_2n_x = p_7_2l_x - (t222 + model.c20);
   const Real p_7_2n_y = t257 * Real(0.9510565162951535) - (S2b_xz + t237 * Real(0.3090169943749474));
-  const Real p_7_2n_z = t219 + p_7_2l_z - model.c21;
+  const Real p_7_2n_z = p_7_2l_z + (t219 - model.c21);
   const Real p_7_0f_x = front_contactbd0p_x * model.front_h_y;
   const Real p_7_0f_y = front_contactbd0p_y * model.front_h_y;
   const Real p_7_0f_z = front_contactbd0p_z * model.front_h_y;
@@ -740,43 +741,44 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t325 = p_8_3N_x * Real(3.571428571428571);
   const Real t328 = p_8_2n_x * Real(3.571428571428571);
   const Real t331 = p_7_2n_z * model.c29;
-  const Real t338 = p_7_2n_y * t331 + (S2c_yz - p_8_3N_x * t321);
-  const Real t341 = p_7_2n_x * t331 - (S2c_xz + p_8_2n_x * t321);
+  const Real t338 = p_7_2n_y * t331 - (S2c_yz + p_8_3N_x * t321);
+  const Real t341 = S2c_xz + (p_8_2n_x * t321 + p_7_2n_x * t331);
   const Real t344 = p_7_0f_z * t331 + (q0r2_x * h2b_x - q0r2_y * h2c_x);
   const Real t347 = p_7_0f_y * t331 - (q0r1_x * h2b_x + q0r1_y * h2c_x);
-  const Real t350 = p_7_0f_x * t331 - (q0r0_x * h2b_x - q0r0_y * h2c_x);
+  const Real t350 = p_7_0f_x * t331 + (q0r0_x * h2b_x + q0r0_y * h2c_x);
   const Real t351 = p_7_2n_y * model.c29;
   const Real t357 = p_7_2n_x * model.c29;
   const Real t362 = p_7_0f_z * model.c29;
   const Real t366 = p_7_0f_y * model.c29;
   const Real t369 = p_7_0f_x * model.c29;
-  const Real t371 = Real(1.0) / (p_7_2n_z * t331 - (p_8_2n_z * t321 + (S2c_yy - S1c_xx)));
+  const Real t371 = Real(1.0) / (S1c_xx + (p_7_2n_z * t331 - (S2c_yy + p_8_2n_z * t321)));
   const Real t372 = t338 * t371;
-  const Real t383 = t341 * t372 - (p_7_2n_x * t351 + (S2c_xy - p_8_2n_x * t325));
+  const Real t383 = t341 * t372 - (p_7_2n_x * t351 + (S2c_xy + p_8_2n_x * t325));
   const Real t387 = t344 * t372 - (p_7_0f_z * t351 + (q0r2_x * h2c_z - q0r2_z * h2c_x));
   const Real t391 = t347 * t372 - (p_7_0f_y * t351 - (q0r1_x * h2c_z + q0r1_z * h2c_x));
-  const Real t395 = t350 * t372 - (p_7_0f_x * t351 - (q0r0_x * h2c_z + q0r0_z * h2c_x));
+  const Real t395 = t350 * t372 - (p_7_0f_x * t351 + (q0r0_x * h2c_z - q0r0_z * h2c_x));
   const Real t396 = t341 * t371;
   const Real t401 = t344 * t371;
   const Real t405 = t347 * t371;
   const Real t408 = t350 * t371;
-  const Real t410 = Real(1.0) / (t338 * t372 - (p_7_2n_y * t351 - (p_8_3N_x * t325 - (S1c_xx + S1c_zz))) +
-      Real(0.12));
+  const Real t410 = Real(1.0) / (t338 * t372 - (p_7_2n_y * t351 - (p_8_3N_x * t325 + Real(0.12)) + (S1c_xx -
+      S1c_zz)));
   const Real t411 = t383 * t410;
-  const Real t422 = t387 * t411 - (t344 * t396 - (p_7_0f_z * t357 + (q0r2_y * h2c_z - q0r2_z * h2b_x)));
-  const Real t427 = t391 * t411 - (t347 * t396 - (p_7_0f_y * t357 + (q0r1_y * h2c_z - q0r1_z * h2b_x)));
-  const Real t432 = t395 * t411 - (t350 * t396 - (p_7_0f_x * t357 - (q0r0_y * h2c_z + q0r0_z * h2b_x)));
+  const Real t422 = t387 * t411 - (t344 * t396 - (p_7_0f_z * t357 - (q0r2_y * h2c_z - q0r2_z * h2b_x)));
+  const Real t427 = t391 * t411 - (t347 * t396 - (p_7_0f_y * t357 - (q0r1_y * h2c_z - q0r1_z * h2b_x)));
+  const Real t432 = t395 * t411 - (t350 * t396 - (p_7_0f_x * t357 + (q0r0_y * h2c_z + q0r0_z * h2b_x)));
   const Real t433 = t387 * t410;
   const Real t437 = t391 * t410;
   const Real t440 = t395 * t410;
-  const Real t442 = Real(1.0) / (t383 * t411 - (t341 * t396 - (p_7_2n_x * t357 - (p_8_2n_x * t328 + (S2c_yy -
-      S1c_zz)))));
+  const Real t442 = Real(1.0) / (t383 * t411 - (t341 * t396 + (S1c_zz - (p_7_2n_x * t357 - (S2c_yy + p_8_2n_x
+      * t328)))));
   const Real t443 = t422 * t442;
   const Real t453 = t427 * t443 - (t391 * t433 + (p_7_0f_y * t362 - t347 * t401));
   const Real t457 = t432 * t443 - (t395 * t433 + (p_7_0f_x * t362 - t350 * t401));
   const Real t458 = t427 * t442;
   const Real t461 = t432 * t442;
-  const Real t463 = Real(1.0) / (t422 * t443 - (t387 * t433 + (p_7_0f_z * t362 - t344 * t401)) - Real(94.0));
+  const Real t463 = Real(1.0) / (t422 * t443 - (t387 * t433 - (t344 * t401 - (p_7_0f_z * t362 +
+      Real(94.0)))));
   const Real t464 = t453 * t463;
   const Real t475 = t457 * t464 - (t432 * t458 - (t395 * t437 + (p_7_0f_x * t366 - t350 * t405)));
   const Real t476 = t457 * t463;
@@ -786,49 +788,49 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t487 = Real(1.0) / (t475 * t479 - (t457 * t476 - (t432 * t461 - (t395 * t440 - (t350 * t408 -
       (p_7_0f_x * t369 + Real(94.0)))))));
   const Real t489 = q0r2_x * model.rear_radius + t91 * t372;
-  const Real t497 = t411 * t489 - (t91 * t396 + (q0r2_y * model.rear_radius + t76 * t89));
+  const Real t497 = t411 * t489 - (t91 * t396 - (q0r2_y * model.rear_radius - t76 * t89));
   const Real t504 = t443 * t497 - (t433 * t489 - (Real(1.0) + t91 * t401));
   const Real t510 = t464 * t504 - (t458 * t497 + (t91 * t405 - t437 * t489));
   const Real t516 = t479 * t510 - (t476 * t504 - (t461 * t497 + (t91 * t408 - t440 * t489)));
-  const Real t518 = model.rear_radius * q0r0_x + rear_contacts1bn0_z * t372;
-  const Real t527 = t411 * t518 - (rear_contacts1bn0_z * t396 + (t112 + (q0r1_x * rear_contactc_z - q0r2_x *
-      rear_contactc_y)));
-  const Real t533 = t443 * t527 + (rear_contacts1bn0_z * t401 - t433 * t518);
-  const Real t539 = t464 * t533 - (t458 * t527 + (rear_contacts1bn0_z * t405 - t437 * t518));
-  const Real t546 = t479 * t539 - (t476 * t533 - (t461 * t527 - (t440 * t518 + (Real(1.0) -
+  const Real t518 = model.rear_radius * q0r0_x - rear_contacts1bn0_z * t372;
+  const Real t527 = t411 * t518 + (rear_contacts1bn0_z * t396 + (q0r2_x * rear_contactc_y - (q0r1_x *
+      rear_contactc_z + t112)));
+  const Real t533 = t443 * t527 - (rear_contacts1bn0_z * t401 + t433 * t518);
+  const Real t539 = t464 * t533 - (t458 * t527 - (rear_contacts1bn0_z * t405 + t437 * t518));
+  const Real t546 = t479 * t539 - (t476 * t533 - (t461 * t527 - (t440 * t518 - (Real(1.0) -
       rear_contacts1bn0_z * t408))));
   const Real t548 = model.rear_radius * q0r1_x - rear_contacts2bn0_z * t372;
-  const Real t557 = t411 * t548 + (rear_contacts2bn0_z * t396 + (q0r2_x * rear_contactc_x + (t102 + q0r0_x *
+  const Real t557 = t411 * t548 + (rear_contacts2bn0_z * t396 - (q0r2_x * rear_contactc_x + (t102 - q0r0_x *
       rear_contactc_z)));
   const Real t563 = t443 * t557 - (rear_contacts2bn0_z * t401 + t433 * t548);
   const Real t570 = t464 * t563 - (t458 * t557 - (t437 * t548 + (Real(1.0) + rear_contacts2bn0_z * t405)));
   const Real t576 = t479 * t570 - (t476 * t563 - (t461 * t557 - (rear_contacts2bn0_z * t408 + t440 * t548)));
   const Real t579 = t87 * t331 - (q0r2_y * t72 - q0r2_x * t85);
-  const Real t588 = t372 * t579 - (t87 * t351 - (t72 * t76 - q0r2_x * t70));
-  const Real t597 = t411 * t588 - (t396 * t579 - (t87 * t357 + (q0r2_y * t70 - t76 * t85)));
+  const Real t588 = t372 * t579 - (t87 * t351 + (t72 * t76 + q0r2_x * t70));
+  const Real t597 = t411 * t588 - (t396 * t579 - (t87 * t357 - (q0r2_y * t70 + t76 * t85)));
   const Real t605 = t443 * t597 - (t433 * t588 - (t401 * t579 - (Real(1.0) + t87 * t362)));
   const Real t612 = t464 * t605 - (t458 * t597 - (t437 * t588 + (t87 * t366 - t405 * t579)));
   const Real t619 = t479 * t612 - (t476 * t605 - (t461 * t597 - (t440 * t588 + (t87 * t369 - t408 * t579))));
-  const Real t627 = front_contacts1bm_z * t331 + (front_contacts1bn3p_x * t321 + (front_contactbx2p_x * q0r0_y
-      + (front_contacts1bn0_z - front_contactbx3_x * q0r0_x)));
-  const Real t638 = t372 * t627 - (front_contacts1bm_z * t351 + (front_contacts1bn3p_x * t325 -
-      (front_contactbx2p_x * q0r0_z + (front_contacts1bn0_y + front_contactbx2p_z * q0r0_x))));
-  const Real t649 = t411 * t638 - (t396 * t627 - (front_contacts1bm_z * t357 + (front_contacts1bn3p_x * t328 -
-      (front_contactbx3_x * q0r0_z + (front_contacts1bn0_x + front_contactbx2p_z * q0r0_y)))));
+  const Real t627 = front_contacts1bn3p_x * t321 + (front_contacts1bm_z * t331 + (front_contacts1bn0_z +
+      (front_contactbx3_x * q0r0_x + front_contactbx2p_x * q0r0_y)));
+  const Real t638 = t372 * t627 - (front_contacts1bn3p_x * t325 + (front_contacts1bm_z * t351 -
+      (front_contacts1bn0_y - (front_contactbx2p_z * q0r0_x - front_contactbx2p_x * q0r0_z))));
+  const Real t649 = t411 * t638 - (t396 * t627 + (front_contacts1bn3p_x * t328 - (front_contacts1bm_z * t357 +
+      (front_contacts1bn0_x + (front_contactbx2p_z * q0r0_y + front_contactbx3_x * q0r0_z)))));
   const Real t656 = t443 * t649 - (t433 * t638 + (front_contacts1bm_z * t362 - t401 * t627));
   const Real t663 = t464 * t656 - (t458 * t649 - (t437 * t638 + (front_contacts1bm_z * t366 - t405 * t627)));
   const Real t671 = t479 * t663 - (t476 * t656 - (t461 * t649 - (t440 * t638 - (t408 * t627 - (Real(1.0) +
       front_contacts1bm_z * t369)))));
-  const Real t679 = front_contacts2bm_z * t331 + (front_contacts2bn3p_x * t321 - (front_contactbx2p_x * q0r1_y
-      + (front_contacts2bn0_z + front_contactbx3_x * q0r1_x)));
-  const Real t690 = t372 * t679 - (front_contacts2bm_z * t351 + (front_contacts2bn3p_x * t325 -
-      (front_contactbx2p_x * q0r1_z + (front_contacts2bn0_y + front_contactbx2p_z * q0r1_x))));
-  const Real t701 = t411 * t690 - (t396 * t679 - (front_contacts2bm_z * t357 + (front_contacts2bn3p_x * t328 -
-      (front_contactbx3_x * q0r1_z - (front_contacts2bn0_x + front_contactbx2p_z * q0r1_y)))));
-  const Real t708 = t443 * t701 - (t433 * t690 + (front_contacts2bm_z * t362 - t401 * t679));
-  const Real t716 = t464 * t708 - (t458 * t701 - (t437 * t690 - (t405 * t679 - (Real(1.0) +
+  const Real t679 = front_contacts2bn3p_x * t321 - (front_contacts2bm_z * t331 + (front_contacts2bn0_z +
+      (front_contactbx3_x * q0r1_x + front_contactbx2p_x * q0r1_y)));
+  const Real t690 = t372 * t679 - (front_contacts2bn3p_x * t325 - (front_contacts2bm_z * t351 +
+      (front_contacts2bn0_y + (front_contactbx2p_z * q0r1_x + front_contactbx2p_x * q0r1_z))));
+  const Real t701 = t411 * t690 - (t396 * t679 + (front_contacts2bn3p_x * t328 + (front_contacts2bm_z * t357 -
+      (front_contacts2bn0_x - (front_contactbx2p_z * q0r1_y - front_contactbx3_x * q0r1_z)))));
+  const Real t708 = t443 * t701 - (t433 * t690 - (front_contacts2bm_z * t362 + t401 * t679));
+  const Real t716 = t464 * t708 - (t458 * t701 - (t437 * t690 - (t405 * t679 - (Real(1.0) -
       front_contacts2bm_z * t366))));
-  const Real t723 = t479 * t716 - (t476 * t708 - (t461 * t701 - (t440 * t690 + (front_contacts2bm_z * t369 -
+  const Real t723 = t479 * t716 - (t476 * t708 - (t461 * t701 - (t440 * t690 - (front_contacts2bm_z * t369 +
       t408 * t679))));
   const Real t736 = t487 * t546;
   const Real t737 = t478 * t539;
@@ -836,7 +838,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t739 = t442 * t527;
   const Real t740 = t410 * t518;
   const Real t741 = rear_contacts1bn0_z * t371;
-  const Real t752 = t91 * t741 - (t489 * t740 - (t497 * t739 - (t504 * t738 + (t516 * t736 - t510 * t737))));
+  const Real t752 = t516 * t736 - (t510 * t737 - (t504 * t738 - (t497 * t739 - (t489 * t740 + t91 * t741))));
   const Real t762 = t487 * t576;
   const Real t763 = t478 * t570;
   const Real t764 = t463 * t563;
@@ -844,14 +846,14 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t766 = t410 * t548;
   const Real t767 = rear_contacts2bn0_z * t371;
   const Real t768 = rear_contacts2bn0_y * Real(8.333333333333334);
-  const Real t779 = t91 * t767 + (t489 * t766 - (t497 * t765 - (t504 * t764 + (t516 * t762 - t510 * t763))));
+  const Real t779 = t516 * t762 - (t510 * t763 - (t504 * t764 - (t497 * t765 - (t489 * t766 + t91 * t767))));
   const Real t794 = t487 * t619;
   const Real t795 = t478 * t612;
   const Real t796 = t463 * t605;
   const Real t797 = t442 * t597;
   const Real t798 = t410 * t588;
   const Real t799 = t371 * t579;
-  const Real t810 = t91 * t799 - (t489 * t798 - (t497 * t797 - (t504 * t796 + (t516 * t794 - t510 * t795))));
+  const Real t810 = t516 * t794 - (t510 * t795 - (t504 * t796 - (t497 * t797 - (t489 * t798 - t91 * t799))));
   const Real t831 = t487 * t671;
   const Real t832 = t478 * t663;
   const Real t833 = t463 * t656;
@@ -859,7 +861,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t835 = t410 * t638;
   const Real t836 = t371 * t627;
   const Real t837 = front_contacts1bm_z * model.c29;
-  const Real t848 = t91 * t836 - (t489 * t835 - (t497 * t834 - (t504 * t833 + (t516 * t831 - t510 * t832))));
+  const Real t848 = t516 * t831 - (t510 * t832 - (t504 * t833 - (t497 * t834 - (t489 * t835 - t91 * t836))));
   const Real t877 = t487 * t723;
   const Real t878 = t478 * t716;
   const Real t879 = t463 * t708;
@@ -868,61 +870,61 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t882 = t371 * t679;
   const Real t883 = front_contacts2bm_z * model.c29;
   const Real t884 = front_contacts2bn3p_x * Real(3.571428571428571);
-  const Real t895 = t91 * t882 - (t489 * t881 - (t497 * t880 - (t504 * t879 + (t516 * t877 - t510 * t878))));
-  const Real t938 = Real(1.0) / (t91 * (t91 * t371) - (t489 * (t410 * t489) - (t497 * (t442 * t497) - (t504 *
-      (t463 * t504) + (t516 * (t487 * t516) - t510 * (t478 * t510))))) + Real(1.8087085566416913e-12));
+  const Real t895 = t516 * t877 - (t510 * t878 - (t504 * t879 - (t497 * t880 - (t489 * t881 - t91 * t882))));
+  const Real t938 = Real(1.0) / (t487 * (t516 * t516) - (t478 * (t510 * t510) - (t463 * (t504 * t504) - (t442
+      * (t497 * t497) - (t410 * (t489 * t489) - (t371 * (t91 * t91) + Real(1.8087085566416913e-12)))))));
   const Real t939 = t752 * t938;
   const Real t950 = t779 * t938;
-  const Real t958 = t752 * t950 + (rear_contacts1bn0_y * t768 - (rear_contacts1bn0_z * t767 + (t518 * t766 -
-      (t527 * t765 - (t533 * t764 + (t546 * t762 - t539 * t763))))));
+  const Real t958 = t752 * t950 - (t546 * t762 - (t539 * t763 - (t533 * t764 - (t527 * t765 - (t518 * t766 -
+      (rear_contacts1bn0_z * t767 - rear_contacts1bn0_y * t768))))));
   const Real t960 = t810 * t938;
-  const Real t967 = t752 * t960 - (rear_contacts1bn0_z * t799 - (t518 * t798 - (t527 * t797 - (t533 * t796 +
-      (t546 * t794 - t539 * t795)))));
+  const Real t967 = t752 * t960 - (t546 * t794 - (t539 * t795 - (t533 * t796 - (t527 * t797 - (t518 * t798 +
+      rear_contacts1bn0_z * t799)))));
   const Real t970 = t848 * t938;
-  const Real t977 = t752 * t970 - (rear_contacts1bn0_z * t836 - (t518 * t835 - (t527 * t834 - (t533 * t833 +
-      (t546 * t831 - t539 * t832)))));
+  const Real t977 = t752 * t970 - (t546 * t831 - (t539 * t832 - (t533 * t833 - (t527 * t834 - (t518 * t835 +
+      rear_contacts1bn0_z * t836)))));
   const Real t981 = t895 * t938;
-  const Real t988 = t752 * t981 - (rear_contacts1bn0_z * t882 - (t518 * t881 - (t527 * t880 - (t533 * t879 +
-      (t546 * t877 - t539 * t878)))));
-  const Real t993 = Real(1.0) / (t752 * t939 - (rear_contacts1bn0_y * rear_contacts1bn0_y *
-      Real(8.333333333333334) + (rear_contacts1bn0_z * t741 - (t518 * t740 - (t527 * t739 - (t533 * t738 +
-      (t546 * t736 - t539 * t737)))))) - Real(7.806783314072456e-11));
+  const Real t988 = t752 * t981 - (t546 * t877 - (t539 * t878 - (t533 * t879 - (t527 * t880 - (t518 * t881 +
+      rear_contacts1bn0_z * t882)))));
+  const Real t993 = Real(1.0) / (t752 * t939 - (t546 * t736 - (t539 * t737 - (t533 * t738 - (t527 * t739 -
+      (t518 * t740 - (rear_contacts1bn0_z * t741 + (rear_contacts1bn0_y * (rear_contacts1bn0_y *
+      Real(8.333333333333334)) + Real(7.806783314072456e-11)))))))));
   const Real t994 = t958 * t993;
   const Real t1006 = t967 * t993;
-  const Real t1014 = t958 * t1006 - (t779 * t960 - (rear_contacts2bn0_z * t799 + (t548 * t798 - (t557 * t797 -
-      (t563 * t796 + (t576 * t794 - t570 * t795))))));
+  const Real t1014 = t958 * t1006 - (t779 * t960 - (t576 * t794 - (t570 * t795 - (t563 * t796 - (t557 * t797 -
+      (t548 * t798 + rear_contacts2bn0_z * t799))))));
   const Real t1016 = t977 * t993;
-  const Real t1024 = t958 * t1016 - (t779 * t970 - (rear_contacts2bn0_z * t836 + (t548 * t835 - (t557 * t834 -
-      (t563 * t833 + (t576 * t831 - t570 * t832))))));
+  const Real t1024 = t958 * t1016 - (t779 * t970 - (t576 * t831 - (t570 * t832 - (t563 * t833 - (t557 * t834 -
+      (t548 * t835 + rear_contacts2bn0_z * t836))))));
   const Real t1027 = t988 * t993;
-  const Real t1035 = t958 * t1027 - (t779 * t981 - (rear_contacts2bn0_z * t882 + (t548 * t881 - (t557 * t880 -
-      (t563 * t879 + (t576 * t877 - t570 * t878))))));
-  const Real t1039 = Real(1.0) / (t958 * t994 - (t779 * t950 - (rear_contacts2bn0_y * t768 +
-      (rear_contacts2bn0_z * t767 - (t548 * t766 - (t557 * t765 - (t563 * t764 + (t576 * t762 - t570 *
-      t763))))))) + Real(8.816994788327498e-12));
+  const Real t1035 = t958 * t1027 - (t779 * t981 - (t576 * t877 - (t570 * t878 - (t563 * t879 - (t557 * t880 -
+      (t548 * t881 + rear_contacts2bn0_z * t882))))));
+  const Real t1039 = Real(1.0) / (t958 * t994 - (t779 * t950 - (t576 * t762 - (t570 * t763 - (t563 * t764 -
+      (t557 * t765 - (t548 * t766 - (rear_contacts2bn0_z * t767 + (rear_contacts2bn0_y * t768 +
+      Real(8.816994788327498e-12))))))))));
   const Real t1040 = t1014 * t1039;
   const Real t1053 = t1024 * t1039;
-  const Real t1063 = t1014 * t1053 - (t967 * t1016 - (t810 * t970 + (t87 * t837 - (t579 * t836 - (t588 * t835
-      - (t597 * t834 - (t605 * t833 + (t619 * t831 - t612 * t832))))))));
+  const Real t1063 = t1014 * t1053 - (t967 * t1016 - (t810 * t970 - (t619 * t831 - (t612 * t832 - (t605 * t833
+      - (t597 * t834 - (t588 * t835 - (t579 * t836 - t87 * t837))))))));
   const Real t1065 = t1035 * t1039;
-  const Real t1075 = t1014 * t1065 - (t967 * t1027 - (t810 * t981 + (t87 * t883 - (t579 * t882 - (t588 * t881
-      - (t597 * t880 - (t605 * t879 + (t619 * t877 - t612 * t878))))))));
-  const Real t1078 = Real(1.0) / (t1014 * t1040 - (t967 * t1006 - (t810 * t960 + (model.c29 * (t87 * t87) -
-      (t579 * t799 - (t588 * t798 - (t597 * t797 - (t605 * t796 + (t619 * t794 - t612 * t795)))))))) -
-      Real(3.988016169236579e-12));
+  const Real t1075 = t1014 * t1065 - (t967 * t1027 - (t810 * t981 - (t619 * t877 - (t612 * t878 - (t605 * t879
+      - (t597 * t880 - (t588 * t881 - (t579 * t882 + t87 * t883))))))));
+  const Real t1078 = Real(1.0) / (t1014 * t1040 - (t967 * t1006 - (t810 * t960 - (t619 * t794 - (t612 * t795 -
+      (t605 * t796 - (t597 * t797 - (t588 * t798 - (t579 * t799 - (t87 * (t87 * model.c29) -
+      Real(3.988016169236579e-12)))))))))));
   const Real t1079 = t1063 * t1078;
   const Real t1094 = t1075 * t1078;
-  const Real t1106 = t1063 * t1094 - (t1024 * t1065 - (t977 * t1027 - (t848 * t981 - (front_contacts1bn3p_x *
-      t884 - (front_contacts1bm_z * t883 - (t627 * t882 - (t638 * t881 - (t649 * t880 - (t656 * t879 + (t671 *
-      t877 - t663 * t878))))))))));
-  const Real t1108 = Real(1.0) / (t1063 * t1079 - (t1024 * t1053 - (t977 * t1016 - (t848 * t970 -
-      (Real(3.571428571428571) * (front_contacts1bn3p_x * front_contacts1bn3p_x) - (front_contacts1bm_z * t837
-      - (t627 * t836 - (t638 * t835 - (t649 * t834 - (t656 * t833 + (t671 * t831 - t663 * t832)))))))))) +
-      Real(4.6476630875276904e-11));
+  const Real t1106 = t1063 * t1094 - (t1024 * t1065 - (t977 * t1027 - (t848 * t981 - (t671 * t877 - (t663 *
+      t878 - (t656 * t879 - (t649 * t880 - (t638 * t881 - (t627 * t882 + (front_contacts1bm_z * t883 +
+      front_contacts1bn3p_x * t884))))))))));
+  const Real t1108 = Real(1.0) / (t1063 * t1079 - (t1024 * t1053 - (t977 * t1016 - (t848 * t970 - (t671 * t831
+      - (t663 * t832 - (t656 * t833 - (t649 * t834 - (t638 * t835 - (t627 * t836 + (front_contacts1bn3p_x *
+      (front_contacts1bn3p_x * Real(3.571428571428571)) - (front_contacts1bm_z * t837 -
+      Real(4.6476630875276904e-11)))))))))))));
   const Real t1109 = t1106 * t1108;
   const Real t1125 = Real(1.0) / (t1106 * t1109 - (t1075 * t1094 - (t1035 * t1065 - (t988 * t1027 - (t895 *
-      t981 - (front_contacts2bn3p_x * t884 - (front_contacts2bm_z * t883 - (t679 * t882 - (t690 * t881 - (t701
-      * t880 - (t708 * t879 + (t723 * t877 - t716 * t878))))))))))) - Real(2.7054786900152528e-11));
+      t981 - (t723 * t877 - (t716 * t878 - (t708 * t879 - (t701 * t880 - (t690 * t881 - (t679 * t882 +
+      (front_contacts2bn3p_x * t884 - (front_contacts2bm_z * t883 - Real(2.7054786900152528e-11))))))))))))));
   const Real t1130 = t50 * state.z[5] + (t48 * state.z[3] + t49 * state.z[4]);
   const Real t1135 = t49 * state.z[5] + (t47 * state.z[3] - t50 * state.z[4]);
   const Real t1140 = t48 * state.z[5] - (t50 * state.z[3] + t47 * state.z[4]);
@@ -933,52 +935,58 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t1171 = state.z[4] + c2 * state.z[8];
   const Real t1173 = state.z[3] + Real(0.3090169943749474) * state.z[7];
   const Real t1174 = front_contactbd2p_x * state.z[8] - t1173;
-  const Real t1183 = q0d3 * t1130 - t1145 * t1147;
-  const Real t1186 = q0d2 * t1145 - q0d3 * t1140;
-  const Real t1188 = q0d2 * t1130 + t1140 * t1147;
-  const Real t1192 = q0d1 * t1130 - t1135 * t1147;
-  const Real t1194 = q0d1 * t1145 + q0d3 * t1135;
-  const Real t1195 = t1186 - t1192;
-  const Real t1197 = q0d1 * t1140 - q0d2 * t1135;
-  const Real t1198 = t1140 * (q0d2 + q0d2) - t1135 * (q0d1 + q0d1);
-  const Real t1199 = t1188 + t1194;
-  const Real t1200 = t1188 - t1194;
-  const Real t1201 = front_contactbx3_x * Real(0.3090169943749474);
-  const Real t1208 = q0r0_z * state.z[4] - q0r0_y * state.z[5];
-  const Real t1214 = front_contactbx3_x * Real(0.9510565162951535);
-  const Real t1222 = q0r1_x * state.z[5] - q0r1_z * state.z[3];
-  const Real t1225 = state.z[7] * t1214 + (front_contactbx2p_z * state.z[4] + front_contactbx3_x *
-      state.z[5]);
-  const Real t1227 = front_contactbx2p_x * state.z[4] - front_contactbx3_x * t1173;
-  const Real t1232 = rear_contactc_z * state.z[5];
-  const Real t1237 = Real(0.9510565162951535) * state.z[7] + (state.z[5] + front_contactbd2p_z * state.z[8]);
-  const Real t1249 = q0r2_z * t1237 + (q0r2_x * t1174 - q0r2_y * t1171);
-  const Real t1255 = front_contactbx3_y * state.z[7] + (front_contactbx2p_z * state.z[3] + front_contactbx2p_x
-      * state.z[5]);
-  const Real t1259 = t51 * t88;
-  const Real t1261 = t51 + t88 * t1259;
-  const Real t1265 = t89 + (t89 - rear_contactc_z * t1259);
-  const Real t1268 = rear_contactc_z * state.z[3];
-  const Real t1271 = model.rear_radius * state.z[3];
-  const Real t1272 = state.z[4] + state.z[6];
-  const Real t1280 = model.rear_radius * state.z[4];
-  const Real t1289 = q0r2_y * t1272 - (q0r2_z * state.z[5] - q0r2_x * state.z[3]);
-  const Real t1294 = rear_contactc_z * t1272 + t89 * t1289;
-  const Real t1295 = t1186 + t1192;
-  const Real t1314 = Real(0.9510565162951535) * (t1199 * (t85 * state.z[7]));
-  const Real t1317 = Real(2.0) * t56;
-  const Real t1333 = t53 * t57;
-  const Real t1335 = t1317 + t52 * t54 * t1333;
-  const Real t1339 = t57 * t1249;
-  const Real t1367 = front_contactbd2p_x * t1199 + (t63 * state.z[7] - (front_contactbd2p_z * t1198 + c2 *
-      t1195));
-  const Real t1373 = front_contactbd2p_z * t1339 + front_contactc_z * t1237;
-  const Real t1378 = c2 * t1339 + front_contactc_z * t1171;
-  const Real t1380 = front_contactbd2p_x * t1339 + front_contactc_z * t1174;
-  const Real t1383 = t129 * t1333 - t52 * t1317;
-  const Real t1397 = model.rear_radius * t1195;
-  const Real t1401 = t1183 - t1197;
-  const Real t1402 = t1183 + t1197;
+  const Real t1182 = q0d3 * t1130 - t1145 * t1147;
+  const Real t1185 = q0d2 * t1145 - q0d3 * t1140;
+  const Real t1187 = q0d2 * t1130 + t1140 * t1147;
+  const Real t1191 = q0d1 * t1130 - t1135 * t1147;
+  const Real t1193 = q0d1 * t1145 + q0d3 * t1135;
+  const Real t1194 = t1185 - t1191;
+  const Real t1196 = q0d1 * t1140 - q0d2 * t1135;
+  const Real t1197 = t1140 * (q0d2 + q0d2) - t1135 * (q0d1 + q0d1);
+  const Real t1198 = t1187 + t1193;
+  const Real t1199 = t1187 - t1193;
+  const Real t1200 = front_contactbx3_x * Real(0.3090169943749474);
+  const Real t1207 = q0r0_z * state.z[4] - q0r0_y * state.z[5];
+  const Real t1213 = front_contactbx3_x * Real(0.9510565162951535);
+  const Real t1221 = q0r1_x * state.z[5] - q0r1_z * state.z[3];
+  const Real t1224 = front_contactbx2p_z * state.z[4] + (front_contactbx3_x * state.z[5] + state.z[7] *
+      t1213);
+  const Real t1226 = front_contactbx2p_x * state.z[4] - front_contactbx3_x * t1173;
+  const Real t1230 = rear_contactc_z * state.z[5];
+  const Real t1233 = Real(0.9510565162951535) * state.z[7];
+  const Real t1235 = front_contactbd2p_z * state.z[8] + (state.z[5] + t1233);
+  const Real t1238 = state.z[5] * t1197;
+  const Real t1241 = t1197 * t1235;
+  const Real t1245 = q0r2_z * t1235 + (q0r2_x * t1174 - q0r2_y * t1171);
+  const Real t1251 = front_contactbx2p_x * state.z[5] + (front_contactbx2p_z * state.z[3] + front_contactbx3_y
+      * state.z[7]);
+  const Real t1255 = t51 * t88;
+  const Real t1257 = t51 + t88 * t1255;
+  const Real t1261 = rear_contactc_z * t1255 - (t89 + t89);
+  const Real t1262 = rear_contactc_z * state.z[3];
+  const Real t1265 = model.rear_radius * state.z[3];
+  const Real t1266 = state.z[4] + state.z[6];
+  const Real t1272 = model.rear_radius * state.z[4];
+  const Real t1281 = q0r2_z * state.z[5] - (q0r2_x * state.z[3] + q0r2_y * t1266);
+  const Real t1287 = rear_contactc_z * t1266 - t89 * t1281;
+  const Real t1288 = t1185 + t1191;
+  const Real t1297 = t1171 * t1194;
+  const Real t1302 = state.z[3] * t1198;
+  const Real t1306 = t85 * (t1198 * t1233);
+  const Real t1307 = t1174 * t1198;
+  const Real t1310 = Real(2.0) * t56;
+  const Real t1325 = t53 * t57;
+  const Real t1328 = t1310 + t1325 * (t52 * t54);
+  const Real t1332 = t57 * t1245;
+  const Real t1360 = front_contactbd2p_z * t1197 + c2 * t1194 - (t63 * state.z[7] + front_contactbd2p_x *
+      t1198);
+  const Real t1365 = front_contactbd2p_z * t1332 + front_contactc_z * t1235;
+  const Real t1370 = c2 * t1332 + front_contactc_z * t1171;
+  const Real t1372 = front_contactbd2p_x * t1332 + front_contactc_z * t1174;
+  const Real t1375 = t129 * t1325 - t52 * t1310;
+  const Real t1390 = model.rear_radius * t1194;
+  const Real t1394 = t1182 - t1196;
+  const Real t1395 = t1182 + t1196;
   const Real w2p_y = Real(0.3090169943749474) * state.z[5] - Real(0.9510565162951535) * state.z[3];
   const Real w2p_z = Real(0.3090169943749474) * state.z[3] + Real(0.9510565162951535) * state.z[5];
   const Real w2_z = state.z[7] + w2p_z;
@@ -986,9 +994,9 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real rfallW_x = q0r2_x * Real(9.81);
   const Real rfallW_y = q0r2_y * Real(9.81);
   const Real rfallW_z = q0r2_z * Real(9.81);
-  const Real rSu0_x = state.z[5] * S2c_xz - (state.z[3] * S1c_xx + state.z[4] * S2c_xy);
-  const Real rSu0_y = state.z[5] * S2c_yz - (state.z[3] * S2c_xy - state.z[4] * S2c_yy);
-  const Real rSu0_z = state.z[5] * S1c_zz - (state.z[3] * S2c_xz + state.z[4] * S2c_yz);
+  const Real rSu0_x = state.z[5] * S2c_xz - (state.z[3] * S1c_xx - state.z[4] * S2c_xy);
+  const Real rSu0_y = state.z[5] * S2c_yz - (state.z[3] * S2c_xy + state.z[4] * S2c_yy);
+  const Real rSu0_z = state.z[3] * S2c_xz - (state.z[4] * S2c_yz - state.z[5] * S1c_zz);
   const Real ruh0 = state.z[5] * h2c_z - (state.z[3] * h2c_x + state.z[4] * h2b_x);
   const Real rL0w00 = state.z[3] * state.z[3];
   const Real rL0w11 = state.z[4] * state.z[4];
@@ -996,151 +1004,149 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real rL0w22 = state.z[5] * state.z[5];
   const Real ruw0 = rL0U2_z + rL0w22;
   const Real z2_1 = Real(2.0) * state.z[6];
-  const Real rdn1_x = state.z[3] * z2_1 * Real(0.06);
-  const Real rdn1_y = Real(0.06) * (state.z[5] * z2_1);
-  const Real rL0w01 = state.z[3] * state.z[4];
+  const Real rdn1_x = z2_1 * (state.z[3] * Real(0.06));
+  const Real rdn1_y = z2_1 * (state.z[5] * Real(0.06));
   const Real rL0w02 = state.z[3] * state.z[5];
-  const Real rL0w12 = state.z[4] * state.z[5];
   const Real rL0U0_x = rL0w11 + rL0w22;
-  const Real ra2o_x = model.r_steer_z * rL0w02 + (rfallW_x + model.r_steer_x * rL0U0_x);
-  const Real ra2o_y = model.r_steer_z * rL0w12 + (rfallW_y - model.r_steer_x * rL0w01);
-  const Real ra2o_z = model.r_steer_z * rL0U2_z + (rfallW_z + model.r_steer_x * rL0w02);
+  const Real ra2o_x = rfallW_x + (model.r_steer_x * rL0U0_x + model.r_steer_z * rL0w02);
+  const Real ra2o_y = rfallW_y - (model.r_steer_x * (state.z[3] * state.z[4]) - model.r_steer_z * (state.z[4]
+      * state.z[5]));
+  const Real ra2o_z = rfallW_z + (model.r_steer_x * rL0w02 + model.r_steer_z * rL0U2_z);
   const Real ra2_y = Real(0.3090169943749474) * ra2o_z + Real(0.9510565162951535) * ra2o_x;
-  const Real rKx2 = S2b_xz * w2p_z - (state.z[4] * S2b_xx - S2b_xy * w2p_y);
+  const Real rKx2 = state.z[4] * S2b_xx - (S2b_xy * w2p_y + S2b_xz * w2p_z);
   const Real rKy2 = S2b_yy * w2p_y + (state.z[4] * S2b_xy - S2b_yz * w2p_z);
   const Real z2_2 = Real(2.0) * state.z[7];
   const Real zz_2 = state.z[7] * state.z[7];
   const Real zw_2 = state.z[7] * (w2p_z + w2_z);
   const Real rdf2_x = h2b_x * zw_2;
   const Real rdf2_y = h2b_y * zw_2;
-  const Real rdf2_z = model.front_h_y * (w3pp_y * z2_2);
+  const Real rdf2_z = w3pp_y * (model.front_h_y * z2_2);
   const Real rKx3 = w3pp_y * Real(0.14);
   const Real rQp3 = z2_2 * rKx3;
   const Real z2_3 = Real(2.0) * state.z[8];
-  const Real rdn3_x = Real(0.14) * (w2_z * z2_3);
+  const Real rdn3_x = w2_z * (Real(0.14) * z2_3);
   const Real rdn3_y = rKx3 * z2_3;
   const Real rn2b_x = s2 * rdn3_x;
   const Real rn2b_y = c2 * rdn3_x;
-  const Real rn2_y = rn2b_y - (S2b_xz * zz_2 + rKx2 * z2_2);
+  const Real rn2_y = rKx2 * z2_2 - (S2b_xz * zz_2 - rn2b_y);
   const Real rf2p_x = Real(0.3090169943749474) * rdf2_z - Real(0.9510565162951535) * rdf2_y;
   const Real rf2p_z = Real(0.3090169943749474) * rdf2_y + Real(0.9510565162951535) * rdf2_z;
-  const Real rf0_x = rf2p_x - (state.z[3] * ruh0 + h2c_x * ruw0);
-  const Real rf0_y = rdf2_x + (state.z[4] * ruh0 + h2b_x * ruw0);
-  const Real rf0_z = rf2p_z - (state.z[5] * ruh0 - h2c_z * ruw0);
-  const Real tau_2_0 = input.u[0] - (rdn3_y + (w2p_y * rKx2 - (h2b_y * ra2o_y + (state.z[4] * rKy2 - h2b_x *
-      ra2_y))));
-  const Real t1591 = t331 * tau_2_0 - (t321 * rQp3 - (model.r_steer_x * rdf2_x - (Real(0.9510565162951535) *
-      rdn3_y + (Real(0.3090169943749474) * rn2_y + (rdn1_x - (h2c_x * rfallW_y - (h2b_x * rfallW_x +
-      (state.z[3] * rSu0_y - state.z[4] * rSu0_x))))))));
-  const Real t1608 = t372 * t1591 - (t351 * tau_2_0 - (t325 * rQp3 - (model.r_steer_z * rf2p_x +
-      (model.r_steer_x * rf2p_z + (rn2b_x - (rKy2 * z2_2 - (S2b_yz * zz_2 - (h2c_z * rfallW_x - (h2c_x *
-      rfallW_z - (state.z[3] * rSu0_z + state.z[5] * rSu0_x))))))))));
-  const Real t1624 = t411 * t1608 - (t396 * t1591 - (t357 * tau_2_0 - (t328 * rQp3 + (model.r_steer_z * rdf2_x
-      + (Real(0.9510565162951535) * rn2_y - (Real(0.3090169943749474) * rdn3_y - (rdn1_y + (h2c_z * rfallW_y -
-      (h2b_x * rfallW_z - (state.z[4] * rSu0_z + state.z[5] * rSu0_y))))))))));
-  const Real t1636 = t443 * t1624 - (t433 * t1608 - (t401 * t1591 - (t362 * tau_2_0 - (q0r2_z * rf0_z -
-      (q0r2_x * rf0_x - q0r2_y * rf0_y))))) + Real(922.1400000000001);
-  const Real t1646 = t464 * t1636 - (t458 * t1624 - (t437 * t1608 - (t405 * t1591 - (t366 * tau_2_0 - (q0r1_z
-      * rf0_z + (q0r1_x * rf0_x + q0r1_y * rf0_y))))));
-  const Real t1656 = t479 * t1646 - (t476 * t1636 - (t461 * t1624 - (t440 * t1608 - (t408 * t1591 - (t369 *
-      tau_2_0 - (q0r0_z * rf0_z + (q0r0_x * rf0_x - q0r0_y * rf0_y)))))));
-  const Real t1657 = t487 * t1656;
-  const Real t1658 = t478 * t1646;
-  const Real t1659 = t463 * t1636;
-  const Real t1660 = t442 * t1624;
-  const Real t1661 = t410 * t1608;
-  const Real t1662 = t371 * t1591;
-  const Real t1663 = model.c29 * tau_2_0;
-  const Real t1664 = Real(3.571428571428571) * rQp3;
-  const Real t1716 = t1199 * (t1280 - t89 * state.z[5]) - (t91 * t1662 - (t489 * t1661 - (t497 * t1660 - (t504
-      * t1659 - (t510 * t1658 - (t516 * t1657 + (state.z[3] * (t89 * t1198 - t1397) + t1195 * t1261 *
-      t1397)))))));
-  const Real t1731 = t939 * t1716 + (rear_contacts1bn0_z * t1662 - (t518 * t1661 - (t527 * t1660 - (t533 *
-      t1659 - (t539 * t1658 - (t546 * t1657 + (t1268 * t1402 - (t1232 * t1295 - (t1222 * t1294 - (t1208 *
-      t1280 + (t1271 * t1401 - (t1199 * (rear_contactc_y * state.z[3]) + (t1198 * (rear_contactc_y *
-      state.z[5]) + t1195 * (t102 * t1261 * t1289 - (t1265 * (q0r1_y * t1272 - (q0r1_z * state.z[5] + q0r1_x *
-      state.z[3])) - rear_contactc_y * t1272)))))))))))))));
-  const Real t1751 = t994 * t1731 - (t950 * t1716 + (rear_contacts2bn0_z * t1662 + (t548 * t1661 - (t557 *
-      t1660 - (t563 * t1659 - (t570 * t1658 - (t576 * t1657 - (t1200 * t1232 + (t1280 * t1402 - (t1222 * t1271
-      - (t1208 * t1268 - (t1294 * t1401 + (t1199 * (rear_contactc_x * state.z[3]) + (t1198 * (rear_contactc_x
-      * state.z[5]) + t1195 * (t112 * t1261 * t1289 - (t1265 * (q0r0_y * t1272 + (q0r0_z * state.z[5] + q0r0_x
-      * state.z[3])) - rear_contactc_x * t1272))))))))))))))));
-  const Real t1785 = t1195 * (t72 * state.z[5] + t70 * state.z[3]) - (t1199 * (t85 * state.z[5] + t70 *
-      state.z[4]) - (t1198 * (t85 * state.z[3] - t72 * state.z[4]) + (state.z[7] * (t85 * t1198 *
-      Real(0.6180339887498948) + (state.z[7] * (front_contactbd0p_z * t57 - model.r_front_y * t63) + Real(2.0)
-      * (t1195 * (front_contactbx3_y - s2 * t57)))) - (t1040 * t1751 - (t1006 * t1731 - (t960 * t1716 - (t87 *
-      t1663 - (t579 * t1662 - (t588 * t1661 - (t597 * t1660 - (t605 * t1659 - (t612 * t1658 - (t619 * t1657 -
-      (t1367 * (t1335 * t1367) + (t1314 + t1314)))))))))))))));
-  const Real t1810 = t1079 * t1785 + (t1053 * t1751 - (t1016 * t1731 - (t970 * t1716 - (front_contacts1bn3p_x
-      * t1664 + (front_contacts1bm_z * t1663 - (t627 * t1662 - (t638 * t1661 - (t649 * t1660 - (t656 * t1659 -
-      (t663 * t1658 - (t671 * t1657 - (t1200 * t1227 + (t1380 * t1402 + (t1295 * t1373 - (t1222 * t1378 -
-      (t1208 * t1225 + (t1255 * t1401 + (t1367 * (t1249 * (front_contactbd0p_y * t1335) - t1383 * (q0r1_y *
-      t1171 - (q0r1_z * t1237 - q0r1_x * t1174))) + (state.z[7] * (t1208 * t1214 - (t1339 * (q0r1_x * t1149 -
-      (s2 * q0r1_y + q0r1_z * t1150)) + ((q0r0_y * state.z[3] - q0r0_x * state.z[4]) * t1201 - (state.z[7] *
-      (front_contactbx3_y * front_contacts1bf2_y - front_contactbx3_x * q0r0_y) + (state.z[8] * (c2 *
-      front_contacts1bn2_y + s2 * front_contacts1bn0_y) + front_contactbx3_y * (q0r0_z * state.z[3] - q0r0_x *
-      state.z[5])))))) + (front_contactc_y * t1174 * t1199 - (t1198 * (front_contactc_y * t1237) + t1195 *
-      (front_contactc_y * t1171))))))))))))))))))))));
-  const Real t1841 = t1125 * (t1109 * t1810 - (t1094 * t1785 + (t1065 * t1751 - (t1027 * t1731 - (t981 * t1716
-      - (front_contacts2bn3p_x * t1664 + (front_contacts2bm_z * t1663 - (t679 * t1662 - (t690 * t1661 - (t701
-      * t1660 - (t708 * t1659 - (t716 * t1658 - (t723 * t1657 - (t1200 * t1373 + (t1225 * t1402 - (t1227 *
-      t1295 + (t1222 * t1255 + (t1208 * t1380 + (t1378 * t1401 + (t1367 * (t1249 * (front_contactbd0p_x *
-      t1335) + t1383 * (q0r0_z * t1237 + (q0r0_y * t1171 - q0r0_x * t1174))) - (state.z[7] * (t1214 * (q0r1_y
-      * state.z[5] + q0r1_z * state.z[4]) + (t1339 * (q0r0_x * t1149 + (s2 * q0r0_y - q0r0_z * t1150)) +
-      (t1201 * (q0r1_y * state.z[3] + q0r1_x * state.z[4]) + (state.z[7] * (front_contactbx3_x * q0r1_y) -
-      (state.z[8] * (c2 * front_contacts2bn2_y - s2 * front_contacts2bn0_y) - front_contactbx3_y *
-      (front_contacts2bf2_y * state.z[7] - t1222)))))) + (t1171 * (front_contactc_x * t1195) - (t1199 *
-      (front_contactc_x * t1174) - t1237 * (front_contactc_x * t1198))))))))))))))))))))))));
-  const Real t1843 = t1108 * t1810 - t1109 * t1841;
-  const Real t1847 = t1094 * t1841 - (t1078 * t1785 - t1079 * t1843);
-  const Real t1853 = t1065 * t1841 + (t1053 * t1843 + (t1039 * t1751 - t1040 * t1847));
-  const Real t1861 = t1027 * t1841 + (t1016 * t1843 - (t1006 * t1847 - (t993 * t1731 - t994 * t1853)));
-  const Real t1871 = t981 * t1841 + (t970 * t1843 - (t960 * t1847 + (t950 * t1853 - (t938 * t1716 - t939 *
-      t1861))));
-  const Real t1872 = Real(1.8087085566416913e-12) * t1871;
-  const Real t1879 = Real(7.806783314072456e-11) * t1861 - t939 * t1872;
-  const Real t1886 = t994 * t1879 - (Real(8.816994788327498e-12) * t1853 - t950 * t1872);
-  const Real t1893 = t1040 * t1886 - (t1006 * t1879 - (Real(3.988016169236579e-12) * t1847 - t960 * t1872));
-  const Real t1900 = t1079 * t1893 - (t1053 * t1886 - (t1016 * t1879 + (Real(4.6476630875276904e-11) * t1843 +
-      t970 * t1872)));
-  const Real t1913 = t1125 * (t1109 * t1900 - (t1094 * t1893 - (t1065 * t1886 - (t1027 * t1879 +
-      (Real(2.7054786900152528e-11) * t1841 + t981 * t1872)))));
-  const Real t1915 = t1108 * t1900 - t1109 * t1913;
-  const Real t1919 = t1094 * t1913 - (t1078 * t1893 - t1079 * t1915);
-  const Real t1925 = t1065 * t1913 + (t1053 * t1915 - (t1039 * t1886 + t1040 * t1919));
-  const Real t1933 = t1027 * t1913 + (t1016 * t1915 - (t1006 * t1919 + (t993 * t1879 + t994 * t1925)));
-  const Real t1944 = t981 * t1913 + (t970 * t1915 - (t960 * t1919 + (t950 * t1925 + (t939 * t1933 - (t1871 +
-      t938 * t1872)))));
-  const Real t1945 = t1861 + t1933;
-  const Real t1946 = t1853 + t1925;
-  const Real t1947 = t1847 + t1919;
-  const Real t1948 = t1843 + t1915;
-  const Real t1949 = t1841 + t1913;
-  const Real t2035 = t487 * (t723 * t1949 + (t671 * t1948 - (t619 * t1947 - (t576 * t1946 - (t546 * t1945 +
-      (t1656 + t516 * t1944))))));
-  const Real t2038 = t478 * (t716 * t1949 + (t663 * t1948 - (t612 * t1947 - (t570 * t1946 - (t539 * t1945 +
-      (t1646 + t510 * t1944)))))) - t479 * t2035;
-  const Real t2043 = t464 * t2038 - (t463 * (t708 * t1949 + (t656 * t1948 - (t605 * t1947 - (t563 * t1946 -
-      (t533 * t1945 + (t1636 + t504 * t1944)))))) - t476 * t2035);
-  const Real t2050 = t443 * t2043 - (t458 * t2038 - (t442 * (t701 * t1949 + (t649 * t1948 - (t597 * t1947 -
-      (t557 * t1946 - (t527 * t1945 + (t1624 + t497 * t1944)))))) - t461 * t2035));
-  const Real t2059 = t411 * t2050 - (t433 * t2043 - (t437 * t2038 - (t410 * (t690 * t1949 + (t638 * t1948 -
-      (t588 * t1947 - (t548 * t1946 - (t518 * t1945 + (t1608 + t489 * t1944)))))) - t440 * t2035)));
-  const Real t2070 = t372 * t2059 - (t396 * t2050 - (t401 * t2043 - (t405 * t2038 - (t371 * (t679 * t1949 +
-      (t627 * t1948 - (t579 * t1947 + (rear_contacts2bn0_z * t1946 + (rear_contacts1bn0_z * t1945 + (t1591 +
-      t91 * t1944)))))) - t408 * t2035))));
-  zdot[0] = -t2035;
-  zdot[1] = -t2038;
-  zdot[2] = -t2043;
-  zdot[3] = t2050;
-  zdot[4] = t2059;
-  zdot[5] = -t2070;
-  zdot[6] = -(t2059 + Real(8.333333333333334) * (rear_contacts1bn0_y * t1945 - rear_contacts2bn0_y * t1946));
-  zdot[7] = -(t331 * t2070 - (t351 * t2059 - (t357 * t2050 - (t362 * t2043 - (t366 * t2038 - (model.c29 *
-      (front_contacts2bm_z * t1949 + (front_contacts1bm_z * t1948 - (tau_2_0 + t87 * t1947))) - t369 *
-      t2035))))));
-  zdot[8] = t321 * t2070 - (t325 * t2059 - (Real(3.571428571428571) * (front_contacts2bn3p_x * t1949 + (rQp3 +
-      front_contacts1bn3p_x * t1948)) + t328 * t2050));
+  const Real rf0_x = state.z[3] * ruh0 + (h2c_x * ruw0 - rf2p_x);
+  const Real rf0_y = state.z[4] * ruh0 + (h2b_x * ruw0 + rdf2_x);
+  const Real rf0_z = state.z[5] * ruh0 - (h2c_z * ruw0 + rf2p_z);
+  const Real tau_2_0 = state.z[4] * rKy2 + (w2p_y * rKx2 - (rdn3_y - (h2b_y * ra2o_y - (h2b_x * ra2_y -
+      input.u[0]))));
+  const Real t1584 = state.z[4] * rSu0_x + (state.z[3] * rSu0_y + (h2c_x * rfallW_y + (model.r_steer_x *
+      rdf2_x - (h2b_x * rfallW_x + rdn1_x)) - (Real(0.9510565162951535) * rdn3_y + t321 * rQp3)) -
+      (Real(0.3090169943749474) * rn2_y - t331 * tau_2_0));
+  const Real t1601 = t372 * t1584 + (state.z[5] * rSu0_x - (state.z[3] * rSu0_z + (t351 * tau_2_0 +
+      (model.r_steer_z * rf2p_x - (h2c_z * rfallW_x + t325 * rQp3) - (rKy2 * z2_2 - (model.r_steer_x * rf2p_z
+      + (h2c_x * rfallW_z + (S2b_yz * zz_2 + rn2b_x))))))));
+  const Real t1617 = t411 * t1601 - (t396 * t1584 + (state.z[4] * rSu0_z + (state.z[5] * rSu0_y - (h2c_z *
+      rfallW_y + (model.r_steer_z * rdf2_x - (h2b_x * rfallW_z - rdn1_y)) - (Real(0.3090169943749474) * rdn3_y
+      - t328 * rQp3)) - (Real(0.9510565162951535) * rn2_y + t357 * tau_2_0))));
+  const Real t1629 = t443 * t1617 - (t433 * t1601 - (t401 * t1584 + (q0r2_y * rf0_y - q0r2_z * rf0_z - (t362 *
+      tau_2_0 - (q0r2_x * rf0_x + Real(922.1400000000001))))));
+  const Real t1639 = t464 * t1629 - (t458 * t1617 - (t437 * t1601 - (t405 * t1584 - (q0r1_x * rf0_x - q0r1_y *
+      rf0_y + (q0r1_z * rf0_z + t366 * tau_2_0)))));
+  const Real t1649 = t479 * t1639 - (t476 * t1629 - (t461 * t1617 - (t440 * t1601 - (t408 * t1584 + (q0r0_x *
+      rf0_x - q0r0_y * rf0_y - (q0r0_z * rf0_z + t369 * tau_2_0))))));
+  const Real t1650 = t487 * t1649;
+  const Real t1651 = t478 * t1639;
+  const Real t1652 = t463 * t1629;
+  const Real t1653 = t442 * t1617;
+  const Real t1654 = t410 * t1601;
+  const Real t1655 = t371 * t1584;
+  const Real t1656 = model.c29 * tau_2_0;
+  const Real t1657 = Real(3.571428571428571) * rQp3;
+  const Real t1710 = t516 * t1650 - (t510 * t1651 - (t504 * t1652 - (t497 * t1653 - (t489 * t1654 - (t91 *
+      t1655 - (t1198 * (t1272 - t89 * state.z[5]) + (state.z[3] * (t89 * t1197 - t1390) + t1257 * (t1194 *
+      t1390))))))));
+  const Real t1725 = t939 * t1710 - (t546 * t1650 - (t539 * t1651 - (t533 * t1652 - (t527 * t1653 - (t518 *
+      t1654 + (rear_contacts1bn0_z * t1655 + (t1194 * (t1257 * (t102 * t1281) - (t1261 * (q0r1_y * t1266 -
+      (q0r1_z * state.z[5] + q0r1_x * state.z[3])) + rear_contactc_y * t1266)) - (t1262 * t1395 +
+      (rear_contactc_y * t1238 - (t1265 * t1394 + t1207 * t1272)) + (t1221 * t1287 + (rear_contactc_y * t1302
+      - t1230 * t1288))))))))));
+  const Real t1745 = t994 * t1725 - (t950 * t1710 - (t576 * t1650 - (t570 * t1651 - (t563 * t1652 - (t557 *
+      t1653 - (t548 * t1654 + (rear_contacts2bn0_z * t1655 - (t1194 * (t1257 * (t112 * t1281) + (t1261 *
+      (q0r0_x * state.z[3] - (q0r0_z * state.z[5] + q0r0_y * t1266)) - rear_contactc_x * t1266)) + (t1199 *
+      t1230 - (rear_contactc_x * t1238 + (t1221 * t1265 - t1272 * t1395)) - (t1287 * t1394 + (rear_contactc_x
+      * t1302 - t1207 * t1262)))))))))));
+  const Real t1779 = t1040 * t1745 - (t1006 * t1725 - (t960 * t1710 - (t619 * t1650 - (t612 * t1651 - (t605 *
+      t1652 - (t597 * t1653 - (t1194 * (t72 * state.z[5] + t70 * state.z[3]) - t1198 * (t85 * state.z[5] + t70
+      * state.z[4]) - (t579 * t1655 + (t1328 * (t1360 * t1360) - t87 * t1656)) + (t588 * t1654 + (state.z[7] *
+      ((front_contactbx3_y - s2 * t57) * (Real(2.0) * t1194) + (state.z[7] * (front_contactbd0p_z * t57 -
+      model.r_front_y * t63) + t85 * (t1197 * Real(0.6180339887498948)))) + (t1197 * (t85 * state.z[3] - t72 *
+      state.z[4]) - (t1306 + t1306)))))))))));
+  const Real t1804 = t1079 * t1779 - (t1053 * t1745 - (t1016 * t1725 - (t970 * t1710 - (t671 * t1650 - (t663 *
+      t1651 - (t656 * t1652 - (t649 * t1653 - (t638 * t1654 - (t627 * t1655 + (state.z[7] * (state.z[8] * (c2
+      * front_contacts1bn2_y + s2 * front_contacts1bn0_y) - (t1332 * (q0r1_x * t1149 - (s2 * q0r1_y + q0r1_z *
+      t1150)) - (front_contactbx3_y * (q0r0_z * state.z[3] + q0r0_x * state.z[5]) - (q0r0_y * state.z[3] +
+      q0r0_x * state.z[4]) * t1200 + (state.z[7] * (front_contactbx3_y * front_contacts1bf2_y -
+      front_contactbx3_x * q0r0_y) + t1207 * t1213)))) - (front_contacts1bn3p_x * t1657 + (front_contacts1bm_z
+      * t1656 + (t1360 * (t1328 * (front_contactbd0p_y * t1245) - t1375 * (q0r1_x * t1174 - (q0r1_z * t1235 -
+      q0r1_y * t1171))) + (t1221 * t1370 - t1288 * t1365 - (t1372 * t1395 - (front_contactc_y * t1241 - (t1251
+      * t1394 + (t1207 * t1224 + t1199 * t1226)) + (front_contactc_y * t1297 - front_contactc_y *
+      t1307)))))))))))))))));
+  const Real t1835 = t1125 * (t1109 * t1804 - (t1094 * t1779 - (t1065 * t1745 - (t1027 * t1725 - (t981 * t1710
+      - (t723 * t1650 - (t716 * t1651 - (t708 * t1652 - (t701 * t1653 - (t690 * t1654 - (t679 * t1655 -
+      (state.z[7] * (state.z[8] * (c2 * front_contacts2bn2_y - s2 * front_contacts2bn0_y) + (t1332 * (q0r0_x *
+      t1149 - (s2 * q0r0_y - q0r0_z * t1150)) - (front_contactbx3_y * (front_contacts2bf2_y * state.z[7] -
+      t1221) + front_contactbx3_x * (q0r1_y * state.z[7]) + (t1200 * (q0r1_y * state.z[3] + q0r1_x *
+      state.z[4]) + t1213 * (q0r1_y * state.z[5] + q0r1_z * state.z[4]))))) + (front_contacts2bn3p_x * t1657 -
+      (front_contacts2bm_z * t1656 + (t1360 * (t1328 * (front_contactbd0p_x * t1245) + t1375 * (q0r0_z * t1235
+      + (q0r0_y * t1171 + q0r0_x * t1174))) - (t1370 * t1394 + t1207 * t1372 - (t1199 * t1365 -
+      (front_contactc_x * t1307 + (t1221 * t1251 + (t1226 * t1288 - t1224 * t1395)) - (front_contactc_x *
+      t1241 + front_contactc_x * t1297)))))))))))))))))));
+  const Real t1837 = t1108 * t1804 - t1109 * t1835;
+  const Real t1841 = t1079 * t1837 - (t1078 * t1779 - t1094 * t1835);
+  const Real t1847 = t1040 * t1841 - (t1053 * t1837 - (t1039 * t1745 - t1065 * t1835));
+  const Real t1855 = t994 * t1847 - (t1006 * t1841 - (t1016 * t1837 - (t993 * t1725 - t1027 * t1835)));
+  const Real t1865 = t939 * t1855 - (t950 * t1847 - (t960 * t1841 - (t970 * t1837 - (t938 * t1710 - t981 *
+      t1835))));
+  const Real t1866 = Real(1.8087085566416913e-12) * t1865;
+  const Real t1873 = Real(7.806783314072456e-11) * t1855 + t939 * t1866;
+  const Real t1880 = t994 * t1873 + (Real(8.816994788327498e-12) * t1847 - t950 * t1866);
+  const Real t1887 = t1040 * t1880 - (t1006 * t1873 - (Real(3.988016169236579e-12) * t1841 + t960 * t1866));
+  const Real t1894 = t1079 * t1887 - (t1053 * t1880 - (t1016 * t1873 + (Real(4.6476630875276904e-11) * t1837 -
+      t970 * t1866)));
+  const Real t1907 = t1125 * (t1109 * t1894 - (t1094 * t1887 - (t1065 * t1880 - (t1027 * t1873 +
+      (Real(2.7054786900152528e-11) * t1835 - t981 * t1866)))));
+  const Real t1909 = t1108 * t1894 - t1109 * t1907;
+  const Real t1913 = t1079 * t1909 - (t1078 * t1887 - t1094 * t1907);
+  const Real t1919 = t1040 * t1913 - (t1053 * t1909 - (t1039 * t1880 - t1065 * t1907));
+  const Real t1927 = t994 * t1919 - (t1006 * t1913 - (t1016 * t1909 - (t993 * t1873 - t1027 * t1907)));
+  const Real t1938 = t939 * t1927 - (t950 * t1919 - (t960 * t1913 - (t970 * t1909 + (t981 * t1907 + (t1865 -
+      t938 * t1866)))));
+  const Real t1939 = t1855 - t1927;
+  const Real t1940 = t1847 - t1919;
+  const Real t1941 = t1841 - t1913;
+  const Real t1942 = t1837 - t1909;
+  const Real t1943 = t1835 - t1907;
+  const Real t2029 = t487 * (t516 * t1938 + (t546 * t1939 - (t576 * t1940 - (t619 * t1941 - (t671 * t1942 -
+      (t1649 - t723 * t1943))))));
+  const Real t2032 = t478 * (t510 * t1938 + (t539 * t1939 - (t570 * t1940 - (t612 * t1941 - (t663 * t1942 -
+      (t1639 - t716 * t1943)))))) - t479 * t2029;
+  const Real t2037 = t464 * t2032 - (t463 * (t504 * t1938 + (t533 * t1939 - (t563 * t1940 - (t605 * t1941 -
+      (t656 * t1942 - (t1629 - t708 * t1943)))))) - t476 * t2029);
+  const Real t2044 = t443 * t2037 - (t458 * t2032 - (t442 * (t497 * t1938 + (t527 * t1939 - (t557 * t1940 -
+      (t597 * t1941 - (t649 * t1942 - (t1617 - t701 * t1943)))))) - t461 * t2029));
+  const Real t2053 = t411 * t2044 - (t433 * t2037 - (t437 * t2032 - (t410 * (t489 * t1938 + (t518 * t1939 -
+      (t548 * t1940 - (t588 * t1941 - (t638 * t1942 - (t1601 - t690 * t1943)))))) - t440 * t2029)));
+  const Real t2064 = t372 * t2053 - (t396 * t2044 - (t401 * t2037 - (t405 * t2032 - (t371 * (t91 * t1938 -
+      (rear_contacts1bn0_z * t1939 - (rear_contacts2bn0_z * t1940 + (t579 * t1941 - (t627 * t1942 - (t1584 -
+      t679 * t1943)))))) - t408 * t2029))));
+  zdot[0] = t2029;
+  zdot[1] = t2032;
+  zdot[2] = t2037;
+  zdot[3] = t2044;
+  zdot[4] = -t2053;
+  zdot[5] = t2064;
+  zdot[6] = t2053 + Real(8.333333333333334) * (rear_contacts1bn0_y * t1939 + rear_contacts2bn0_y * t1940);
+  zdot[7] = t331 * t2064 - (t351 * t2053 - (t357 * t2044 - (t362 * t2037 - (t366 * t2032 - (model.c29 * (t87 *
+      t1941 - (front_contacts1bm_z * t1942 - (tau_2_0 + front_contacts2bm_z * t1943))) - t369 * t2029)))));
+  zdot[8] = -(t321 * t2064 - (t325 * t2053 + (Real(3.571428571428571) * (front_contacts1bn3p_x * t1942 + (rQp3
+      + front_contacts2bn3p_x * t1943)) + t328 * t2044)));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -1190,15 +1196,16 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real S2c_xy = S2b_xy * Real(0.9510565162951535) - (S2b_xz * Real(0.3090169943749474) + h2b_x *
       model.r_steer_x);
   const Real t96 = h2at2_z - model.h_z;
-  const Real S2c_xz = Real(0.9510565162951535) * S2at2r0_z - (model.r_steer_x * t96 + ((h2at2_x + model.c9) *
-      model.r_steer_z + Real(0.3090169943749474) * (S2at2r0_y - model.SR_z)) + Real(25.349999999999998));
+  const Real S2c_xz = Real(0.3090169943749474) * (S2at2r0_y - model.SR_z) - (Real(0.9510565162951535) *
+      S2at2r0_z - Real(25.349999999999998) - ((h2at2_x + model.c9) * model.r_steer_z + model.r_steer_x *
+      t96));
   const Real S2c_yy = S2b_xx - Real(0.5002999999999995);
-  const Real S2c_yz = S2b_xz * Real(0.9510565162951535) + (S2b_xy * Real(0.3090169943749474) - h2b_x *
+  const Real S2c_yz = S2b_xy * Real(0.3090169943749474) + (S2b_xz * Real(0.9510565162951535) - h2b_x *
       model.r_steer_z);
-  const Real S1c_xx = Real(0.3090169943749474) * (S2at2r0_z + model.SR_x) + (Real(0.9510565162951535) *
-      S2at2r0_y + (h2at2_x + model.h_x) * model.c14) + model.c16;
-  const Real S1c_zz = Real(0.9510565162951535) * (t67 - model.c18) + (Real(0.3090169943749474) * S2at2r2_y -
-      t96 * model.c17) - model.c19;
+  const Real S1c_xx = Real(0.9510565162951535) * S2at2r0_y + (Real(0.3090169943749474) * (S2at2r0_z +
+      model.SR_x) + ((h2at2_x + model.h_x) * model.c14 + model.c16));
+  const Real S1c_zz = Real(0.3090169943749474) * S2at2r2_y + (Real(0.9510565162951535) * (t67 - model.c18) -
+      (t96 * model.c17 + model.c19));
   const Real S0b_zz = S2c_yy - S1c_xx;
   const Real Jx0 = S2c_yy + S1c_zz;
   const Real Jy0 = S1c_xx - S1c_zz;
@@ -1207,21 +1214,21 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real w2_z = state.z[7] + w2p_z;
   const Real w3pp_y = s2 * state.z[4] - c2 * w2p_y;
   const Real fall0_z = zdot[2] - Real(9.81);
-  const Real afallW_x = q0r1_x * zdot[1] - (q0r0_x * zdot[0] - q0r2_x * fall0_z);
+  const Real afallW_x = q0r0_x * zdot[0] - (q0r1_x * zdot[1] + q0r2_x * fall0_z);
   const Real afallW_y = q0r1_y * zdot[1] - (q0r0_y * zdot[0] + q0r2_y * fall0_z);
-  const Real afallW_z = q0r1_z * zdot[1] + (q0r0_z * zdot[0] - q0r2_z * fall0_z);
-  const Real aSu0_x = state.z[4] * S2c_xy - (state.z[3] * S1c_xx + state.z[5] * S2c_xz);
-  const Real aSu0_y = state.z[4] * S2c_yy + (state.z[3] * S2c_xy - state.z[5] * S2c_yz);
-  const Real aSu0_z = state.z[4] * S2c_yz + (state.z[3] * S2c_xz - state.z[5] * S1c_zz);
-  const Real auh0 = state.z[4] * h2b_x + (state.z[3] * h2c_x - state.z[5] * h2c_z);
+  const Real afallW_z = q0r2_z * fall0_z - (q0r0_z * zdot[0] + q0r1_z * zdot[1]);
+  const Real aSu0_x = state.z[5] * S2c_xz - (state.z[3] * S1c_xx - state.z[4] * S2c_xy);
+  const Real aSu0_y = state.z[5] * S2c_yz - (state.z[3] * S2c_xy + state.z[4] * S2c_yy);
+  const Real aSu0_z = state.z[3] * S2c_xz - (state.z[4] * S2c_yz - state.z[5] * S1c_zz);
+  const Real auh0 = state.z[5] * h2c_z - (state.z[3] * h2c_x + state.z[4] * h2b_x);
   const Real aL0w00 = state.z[3] * state.z[3];
   const Real aL0w11 = state.z[4] * state.z[4];
   const Real aL0U2_z = aL0w00 + aL0w11;
   const Real aL0w22 = state.z[5] * state.z[5];
   const Real auw0 = aL0U2_z + aL0w22;
   const Real z2_1 = Real(2.0) * state.z[6];
-  const Real adn1_x = state.z[3] * z2_1 * Real(0.06);
-  const Real adn1_y = Real(0.06) * (state.z[5] * z2_1);
+  const Real adn1_x = z2_1 * (state.z[3] * Real(0.06));
+  const Real adn1_y = z2_1 * (state.z[5] * Real(0.06));
   const Real adn1_z = zdot[6] * Real(0.12);
   const Real aal2_y = zdot[5] * Real(0.3090169943749474) - zdot[3] * Real(0.9510565162951535);
   const Real aal2_z = zdot[3] * Real(0.3090169943749474) + zdot[5] * Real(0.9510565162951535);
@@ -1233,54 +1240,54 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real aL0U1_x = zdot[5] + aL0w01;
   const Real aL0U1_z = zdot[3] - aL0w12;
   const Real aL0U2_x = zdot[4] - aL0w02;
-  const Real aa2o_x = model.r_steer_x * aL0U0_x - (afallW_x - model.r_steer_z * aL0U0_z);
-  const Real aa2o_y = model.r_steer_x * aL0U1_x - (afallW_y - model.r_steer_z * aL0U1_z);
-  const Real aa2o_z = model.r_steer_x * aL0U2_x - (afallW_z + model.r_steer_z * aL0U2_z);
+  const Real aa2o_x = afallW_x + (model.r_steer_x * aL0U0_x + model.r_steer_z * aL0U0_z);
+  const Real aa2o_y = afallW_y - (model.r_steer_x * aL0U1_x + model.r_steer_z * aL0U1_z);
+  const Real aa2o_z = afallW_z + (model.r_steer_x * aL0U2_x - model.r_steer_z * aL0U2_z);
   const Real aa2_y = Real(0.3090169943749474) * aa2o_z - Real(0.9510565162951535) * aa2o_x;
-  const Real aKx2 = S2b_xy * w2p_y - (state.z[4] * S2b_xx - S2b_xz * w2p_z);
-  const Real aKy2 = S2b_yz * w2p_z - (state.z[4] * S2b_xy + S2b_yy * w2p_y);
+  const Real aKx2 = state.z[4] * S2b_xx - (S2b_xy * w2p_y + S2b_xz * w2p_z);
+  const Real aKy2 = S2b_yy * w2p_y + (state.z[4] * S2b_xy - S2b_yz * w2p_z);
   const Real z2_2 = Real(2.0) * state.z[7];
   const Real zz_2 = state.z[7] * state.z[7];
   const Real zw_2 = state.z[7] * (w2p_z + w2_z);
   const Real adf2_x = zdot[7] * h2b_y - h2b_x * zw_2;
   const Real adf2_y = zdot[7] * h2b_x + h2b_y * zw_2;
-  const Real adf2_z = model.front_h_y * (w3pp_y * z2_2);
+  const Real adf2_z = w3pp_y * (model.front_h_y * z2_2);
   const Real adn2_z = zdot[7] * model.S2b_zz;
   const Real aal2o_x = zdot[4] + state.z[7] * w2p_y;
   const Real aal2o_y = aal2_y - state.z[4] * state.z[7];
   const Real aal3p_x = c2 * aal2o_x + s2 * aal2o_y;
-  const Real z2_3 = Real(2.0) * state.z[8];
-  const Real adn3_x = w2_z * z2_3 * Real(0.14);
-  const Real adn3_y = Real(0.14) * (w3pp_y * z2_3);
+  const Real t301 = Real(0.14) * (Real(2.0) * state.z[8]);
+  const Real adn3_x = w2_z * t301;
+  const Real adn3_y = w3pp_y * t301;
   const Real adn3_z = zdot[8] * Real(0.28);
-  const Real an2_y = S2b_xz * zz_2 - (zdot[7] * S2b_yz - (aKx2 * z2_2 - (c2 * adn3_x + s2 * adn3_z)));
+  const Real an2_y = aKx2 * z2_2 + (c2 * adn3_x + s2 * adn3_z + (zdot[7] * S2b_yz - S2b_xz * zz_2));
   const Real an2_z = adn2_z - adn3_y;
   const Real af2p_x = Real(0.3090169943749474) * adf2_z - Real(0.9510565162951535) * adf2_y;
   const Real af2p_z = Real(0.3090169943749474) * adf2_y + Real(0.9510565162951535) * adf2_z;
-  const Real af0_x = zdot[4] * h2c_z - (state.z[3] * auh0 - (zdot[5] * h2b_x + (h2c_x * auw0 - af2p_x)));
-  const Real af0_y = zdot[3] * h2c_z + (state.z[4] * auh0 + (zdot[5] * h2c_x - (h2b_x * auw0 - adf2_x)));
-  const Real af0_z = zdot[3] * h2b_x + (state.z[5] * auh0 - (zdot[4] * h2c_x - (h2c_z * auw0 + af2p_z)));
-  const Real an0_x = state.z[5] * aSu0_y + (state.z[4] * aSu0_z + (zdot[3] * Jx0 - (zdot[4] * S2c_xy -
-      (zdot[5] * S2c_xz - (h2b_x * afallW_z - (h2c_z * afallW_y + (adn1_y + (Real(0.3090169943749474) * an2_z
-      - (Real(0.9510565162951535) * an2_y + model.r_steer_z * adf2_x)))))))));
-  const Real an0_y = state.z[5] * aSu0_x + (state.z[3] * aSu0_z + (zdot[3] * S2c_xy + (zdot[4] * Jy0 -
-      (zdot[5] * S2c_yz + (h2c_x * afallW_z + (h2c_z * afallW_x - (adn1_z - (zdot[7] * S2b_xz + (S2b_yz * zz_2
-      + (aKy2 * z2_2 - (c2 * adn3_z - (s2 * adn3_x + (model.r_steer_x * af2p_z + model.r_steer_z *
-      af2p_x)))))))))))));
-  const Real an0_z = state.z[4] * aSu0_x - (state.z[3] * aSu0_y - (zdot[3] * S2c_xz + (zdot[4] * S2c_yz +
-      (zdot[5] * S0b_zz + (h2b_x * afallW_x + (h2c_x * afallW_y - (adn1_x - (Real(0.3090169943749474) * an2_y
-      + (Real(0.9510565162951535) * an2_z - model.r_steer_x * adf2_x)))))))));
+  const Real af0_x = state.z[3] * auh0 + (zdot[4] * h2c_z + zdot[5] * h2b_x + (h2c_x * auw0 - af2p_x));
+  const Real af0_y = state.z[4] * auh0 + (h2b_x * auw0 - adf2_x - (zdot[3] * h2c_z + zdot[5] * h2c_x));
+  const Real af0_z = state.z[5] * auh0 - (zdot[3] * h2b_x - zdot[4] * h2c_x + (h2c_z * auw0 + af2p_z));
+  const Real an0_x = state.z[4] * aSu0_z - (Real(0.9510565162951535) * an2_y - (state.z[5] * aSu0_y + (zdot[4]
+      * S2c_xy + model.r_steer_z * adf2_x - (Real(0.3090169943749474) * an2_z + (h2c_z * afallW_y + (h2b_x *
+      afallW_z + adn1_y))))) + (zdot[3] * Jx0 - zdot[5] * S2c_xz));
+  const Real an0_y = state.z[5] * aSu0_x - (state.z[3] * aSu0_z - (zdot[4] * Jy0 + (zdot[3] * S2c_xy -
+      (zdot[7] * S2b_xz + s2 * adn3_x + (S2b_yz * zz_2 - (adn1_z + c2 * adn3_z))) - (zdot[5] * S2c_yz - (h2c_x
+      * afallW_z + h2c_z * afallW_x)) + (aKy2 * z2_2 - (model.r_steer_x * af2p_z + model.r_steer_z *
+      af2p_x)))));
+  const Real an0_z = state.z[4] * aSu0_x - (Real(0.3090169943749474) * an2_y - (state.z[3] * aSu0_y + (zdot[4]
+      * S2c_yz - model.r_steer_x * adf2_x + (Real(0.9510565162951535) * an2_z + (h2c_x * afallW_y - (h2b_x *
+      afallW_x + adn1_x))))) + (zdot[3] * S2c_xz - zdot[5] * S0b_zz));
   const Real aQ1_0 = zdot[4] * Real(0.12) + adn1_z;
-  const Real aQ2_0 = zdot[4] * S2b_xz - (state.z[4] * aKy2 - (model.S2b_zz * aal2_z - (S2b_yz * aal2_y -
-      (h2b_x * aa2_y - (h2b_y * aa2o_y + (w2p_y * aKx2 - an2_z))))));
+  const Real aQ2_0 = state.z[4] * aKy2 + (w2p_y * aKx2 + (h2b_y * aa2o_y + (zdot[4] * S2b_xz + model.S2b_zz *
+      aal2_z) + (an2_z - (S2b_yz * aal2_y - h2b_x * aa2_y))));
   const Real aQ3_0 = aal3p_x * Real(0.28) + adn3_z;
-  const Real tauf0 = q0r0_y * af0_y + (q0r0_x * af0_x + (q0r0_z * af0_z + zdot[0] * Real(94.0)));
-  const Real tauf1 = q0r1_y * af0_y + (q0r1_x * af0_x - (q0r1_z * af0_z + zdot[1] * Real(94.0)));
-  const Real tauf2 = q0r2_y * af0_y - (q0r2_x * af0_x + (q0r2_z * af0_z - fall0_z * Real(94.0)));
+  const Real tauf0 = q0r0_x * af0_x + zdot[0] * Real(94.0) - (q0r0_y * af0_y + q0r0_z * af0_z);
+  const Real tauf1 = q0r1_x * af0_x - zdot[1] * Real(94.0) - (q0r1_y * af0_y - q0r1_z * af0_z);
+  const Real tauf2 = q0r2_x * af0_x - fall0_z * Real(94.0) + (q0r2_y * af0_y - q0r2_z * af0_z);
   tau[0] = tauf0;
   tau[1] = -tauf1;
-  tau[2] = tauf2;
-  tau[3] = -an0_x;
+  tau[2] = -tauf2;
+  tau[3] = an0_x;
   tau[4] = an0_y;
   tau[5] = -an0_z;
   tau[6] = aQ1_0;
@@ -1334,15 +1341,16 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real S2c_xy = S2b_xy * Real(0.9510565162951535) - (S2b_xz * Real(0.3090169943749474) + h2b_x *
       model.r_steer_x);
   const Real t90 = h2at2_z - model.h_z;
-  const Real S2c_xz = Real(0.9510565162951535) * S2at2r0_z - (model.r_steer_x * t90 + ((h2at2_x + model.c9) *
-      model.r_steer_z + Real(0.3090169943749474) * (S2at2r0_y - model.SR_z)) + Real(25.349999999999998));
+  const Real S2c_xz = Real(0.3090169943749474) * (S2at2r0_y - model.SR_z) - (Real(0.9510565162951535) *
+      S2at2r0_z - Real(25.349999999999998) - ((h2at2_x + model.c9) * model.r_steer_z + model.r_steer_x *
+      t90));
   const Real S2c_yy = S2b_xx - Real(0.5002999999999995);
-  const Real S2c_yz = S2b_xz * Real(0.9510565162951535) + (S2b_xy * Real(0.3090169943749474) - h2b_x *
+  const Real S2c_yz = S2b_xy * Real(0.3090169943749474) + (S2b_xz * Real(0.9510565162951535) - h2b_x *
       model.r_steer_z);
-  const Real S1c_xx = Real(0.3090169943749474) * (S2at2r0_z + model.SR_x) + (Real(0.9510565162951535) *
-      S2at2r0_y + (h2at2_x + model.h_x) * model.c14) + model.c16;
-  const Real S1c_zz = Real(0.9510565162951535) * (t61 - model.c18) + (Real(0.3090169943749474) * S2at2r2_y -
-      t90 * model.c17) - model.c19;
+  const Real S1c_xx = Real(0.9510565162951535) * S2at2r0_y + (Real(0.3090169943749474) * (S2at2r0_z +
+      model.SR_x) + ((h2at2_x + model.h_x) * model.c14 + model.c16));
+  const Real S1c_zz = Real(0.3090169943749474) * S2at2r2_y + (Real(0.9510565162951535) * (t61 - model.c18) -
+      (t90 * model.c17 + model.c19));
   const Real S0b_zz = S2c_yy - S1c_xx;
   const Real Jx0 = S2c_yy + S1c_zz;
   const Real Jy0 = S1c_xx - S1c_zz;
@@ -1356,27 +1364,25 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real Tmv_y = state.z[1] * Real(47.0);
   const Real Tmv_z = state.z[2] * Real(47.0);
   const Real v1L_z = state.z[6] * Real(0.12);
-  const Real v2o_x = q0r1_x * state.z[1] - (q0r0_x * state.z[0] - (q0r2_x * state.z[2] - state.z[4] *
-      model.r_steer_z));
-  const Real v2o_y = q0r1_y * state.z[1] - (q0r0_y * state.z[0] + (q0r2_y * state.z[2] + (state.z[3] *
-      model.r_steer_z + state.z[5] * model.r_steer_x)));
-  const Real v2o_z = q0r1_z * state.z[1] + (q0r0_z * state.z[0] - (q0r2_z * state.z[2] + state.z[4] *
-      model.r_steer_x));
+  const Real v2o_x = q0r1_x * state.z[1] - state.z[4] * model.r_steer_z - (q0r0_x * state.z[0] - q0r2_x *
+      state.z[2]);
+  const Real v2o_y = q0r0_y * state.z[0] + (state.z[3] * model.r_steer_z + state.z[5] * model.r_steer_x) -
+      (q0r1_y * state.z[1] - q0r2_y * state.z[2]);
+  const Real v2o_z = q0r0_z * state.z[0] - state.z[4] * model.r_steer_x + (q0r1_z * state.z[1] - q0r2_z *
+      state.z[2]);
   const Real v2_y = Real(0.3090169943749474) * v2o_z - Real(0.9510565162951535) * v2o_x;
-  const Real v2P_x = state.z[7] * h2b_y;
-  const Real v2P_y = state.z[7] * h2b_x;
   const Real v2L_x = state.z[7] * S2b_xz;
-  const Real v2L_y = state.z[7] * S2b_yz;
   const Real v2L_z = state.z[7] * model.S2b_zz;
   const Real v3L_z = state.z[8] * Real(0.28);
-  const Real T3 = state.z[1] * (q0r1_y * Tph_y + (q0r1_x * Tph_x - (q0r1_z * Tph_z + Tmv_y))) - (state.z[0] *
-      (q0r0_y * Tph_y + (q0r0_x * Tph_x + (q0r0_z * Tph_z + Tmv_x))) + (state.z[2] * (q0r2_y * Tph_y - (q0r2_x
-      * Tph_x + (q0r2_z * Tph_z - Tmv_z))) + (w2p_y * v2L_y - (w2p_z * v2L_z + (v2o_y * v2P_x - (v2_y * v2P_y
-      + (w3pp_x * v3L_z + ((state.z[8] * v3L_z - (state.z[7] * v2L_z - (state.z[6] * v1L_z + (state.z[4] *
-      (state.z[4] * Jy0 + (state.z[3] * S2c_xy - state.z[5] * S2c_yz)) - (state.z[5] * (state.z[4] * S2c_yz +
-      (state.z[3] * S2c_xz + state.z[5] * S0b_zz)) - state.z[3] * (state.z[4] * S2c_xy - (state.z[3] * Jx0 +
-      state.z[5] * S2c_xz))))))) * Real(0.5) + state.z[4] * (v1L_z - v2L_x)))))))));
-  return -T3;
+  const Real T3 = (state.z[4] * (state.z[4] * Jy0 + (state.z[3] * S2c_xy - state.z[5] * S2c_yz)) + (state.z[8]
+      * v3L_z + (state.z[6] * v1L_z - state.z[7] * v2L_z)) - (state.z[5] * (state.z[5] * S0b_zz - (state.z[3]
+      * S2c_xz - state.z[4] * S2c_yz)) - state.z[3] * (state.z[5] * S2c_xz - (state.z[3] * Jx0 - state.z[4] *
+      S2c_xy)))) * Real(0.5) + (state.z[0] * (q0r0_x * Tph_x + Tmv_x + (q0r0_y * Tph_y + q0r0_z * Tph_z)) +
+      (w3pp_x * v3L_z + (S2b_yz * (state.z[7] * w2p_y) - w2p_z * v2L_z) + (state.z[4] * (v1L_z - v2L_x) +
+      (h2b_y * (state.z[7] * v2o_y) + h2b_x * (state.z[7] * v2_y)))) - (state.z[1] * (q0r1_x * Tph_x - Tmv_y +
+      (q0r1_y * Tph_y - q0r1_z * Tph_z)) + state.z[2] * (q0r2_x * Tph_x - Tmv_z - (q0r2_y * Tph_y - q0r2_z *
+      Tph_z))));
+  return T3;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -1389,7 +1395,7 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
   const Real q023 = state.y[5] * q0d3;
   const Real q001 = q0d1 * state.y[3];
   const Real q0r2_y = q023 + q001;
-  const Real q0r2_z = q011 + q022 - Real(1.0);
+  const Real q0r2_z = q022 + (q011 - Real(1.0));
   const Real q013 = state.y[4] * q0d3;
   const Real q002 = q0d2 * state.y[3];
   const Real q0r2_x = q013 - q002;
@@ -1400,8 +1406,8 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
   const Real h2at2_z = h2b_y * Real(0.3090169943749474);
   const Real h2c_x = h2at2_x + model.c22;
   const Real h2c_z = h2at2_z + model.c23;
-  const Real hg0_z = q0r2_z * h2c_z + (model.front_h_y * (q0r2_y * s2) + (state.y[2] * Real(94.0) + q0r2_x *
-      h2c_x));
+  const Real hg0_z = q0r2_z * h2c_z + (q0r2_x * h2c_x + (state.y[2] * Real(94.0) + s2 * (q0r2_y *
+      model.front_h_y)));
   const Real V = hg0_z * Real(9.81);
   return -V;
 }
@@ -1449,7 +1455,7 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real t94 = q0r2_x * t92;
   const Real q033 = state.y[6] * q0d3;
   const Real q003 = q0d3 * state.y[3];
-  const Real q0r0_x = Real(1.0) - (q022 + q033);
+  const Real q0r0_x = q033 + (q022 - Real(1.0));
   const Real q0r0_y = q012 - q003;
   const Real q0r1_x = q012 + q003;
   const Real q0r1_y = t14 + q033;
@@ -1469,26 +1475,26 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real front_contactc_y = model.front_radius * (front_contactbd0p_z * front_contactbd0p_y /
       front_contactup);
   const Real front_contactc_z = model.front_radius * (t52 / front_contactup);
-  const Real front_contacts1bf2_y = Real(0.3090169943749474) * q0r0_z - Real(0.9510565162951535) * q0r0_x;
+  const Real front_contacts1bf2_y = Real(0.3090169943749474) * q0r0_z + Real(0.9510565162951535) * q0r0_x;
   const Real front_contacts1bn0_x = q0r1_x * front_contactc_z - q0r2_x * front_contactc_y;
   const Real front_contacts1bn0_y = q0r1_y * front_contactc_z + q0r2_y * front_contactc_y;
   const Real front_contacts1bn0_z = q0r1_z * front_contactc_z + q0r2_z * front_contactc_y;
   const Real front_contacts1bn2_y = Real(0.3090169943749474) * front_contacts1bn0_z - Real(0.9510565162951535)
       * front_contacts1bn0_x;
   const Real front_contacts1bn3p_x = c2 * front_contacts1bn0_y - s2 * front_contacts1bn2_y;
-  const Real front_contacts1bm_z = front_contactbx3_x * front_contacts1bf2_y + (front_contactbx3_y * q0r0_y +
-      (Real(0.3090169943749474) * front_contacts1bn0_x + Real(0.9510565162951535) * front_contacts1bn0_z));
+  const Real front_contacts1bm_z = Real(0.9510565162951535) * front_contacts1bn0_z + (Real(0.3090169943749474)
+      * front_contacts1bn0_x + (front_contactbx3_y * q0r0_y + front_contactbx3_x * front_contacts1bf2_y));
   const Real front_contactbd0p_x = c2 * q0r0_y + s2 * front_contacts1bf2_y;
   const Real front_contactc_x = model.front_radius * (front_contactbd0p_z * front_contactbd0p_x /
       front_contactup);
-  const Real front_contacts2bn0_x = q0r0_x * front_contactc_z - q0r2_x * front_contactc_x;
+  const Real front_contacts2bn0_x = q0r0_x * front_contactc_z + q0r2_x * front_contactc_x;
   const Real front_contacts2bn0_y = q0r0_y * front_contactc_z - q0r2_y * front_contactc_x;
   const Real front_contacts2bn0_z = q0r0_z * front_contactc_z + q0r2_z * front_contactc_x;
-  const Real front_contacts2bn2_y = Real(0.3090169943749474) * front_contacts2bn0_z - Real(0.9510565162951535)
+  const Real front_contacts2bn2_y = Real(0.3090169943749474) * front_contacts2bn0_z + Real(0.9510565162951535)
       * front_contacts2bn0_x;
   const Real front_contacts2bn3p_x = c2 * front_contacts2bn0_y + s2 * front_contacts2bn2_y;
-  const Real front_contacts2bm_z = model.r_front_y * front_contactbd0p_y - (Real(0.3090169943749474) *
-      front_contacts2bn0_x + Real(0.9510565162951535) * front_contacts2bn0_z);
+  const Real front_contacts2bm_z = Real(0.9510565162951535) * front_contacts2bn0_z - (Real(0.3090169943749474)
+      * front_contacts2bn0_x + model.r_front_y * front_contactbd0p_y);
   const Real S2b_t = s2 * model.S2b_d;
   const Real S2b_xx = s2 * S2b_t - Real(0.003500000000000002);
   const Real S2b_xy = c2 * S2b_t;
@@ -1509,16 +1515,16 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real t241 = h2b_x * model.r_steer_x;
   const Real S2c_yy = S2b_xx - Real(0.5002999999999995);
   const Real t245 = h2b_x * model.r_steer_z;
-  const Real S1c_xx = (h2at2_x + model.h_x) * model.c14 + (Real(0.9510565162951535) * S2at2r0_y +
-      Real(0.3090169943749474) * (S2at2r0_z + model.SR_x)) + model.c16;
+  const Real S1c_xx = Real(0.9510565162951535) * S2at2r0_y + (Real(0.3090169943749474) * (S2at2r0_z +
+      model.SR_x) + ((h2at2_x + model.h_x) * model.c14 + model.c16));
   const Real t258 = h2at2_z - model.h_z;
-  const Real S1c_zz = t258 * model.c17 - (Real(0.3090169943749474) * S2at2r2_y + Real(0.9510565162951535) *
-      (t223 - model.c18)) + model.c19;
+  const Real S1c_zz = Real(0.3090169943749474) * S2at2r2_y + (Real(0.9510565162951535) * (t223 - model.c18) -
+      (t258 * model.c17 + model.c19));
   const Real p_7_2l_x = h2b_y * model.r_steer_z;
   const Real p_7_2l_z = h2b_y * model.r_steer_x;
-  const Real p_7_2n_x = t226 - p_7_2l_x + model.c20;
+  const Real p_7_2n_x = p_7_2l_x - (t226 + model.c20);
   const Real p_7_2n_y = t245 * Real(0.9510565162951535) - (S2b_xz + t241 * Real(0.3090169943749474));
-  const Real p_7_2n_z = t223 + p_7_2l_z - model.c21;
+  const Real p_7_2n_z = p_7_2l_z + (t223 - model.c21);
   const Real p_7_0f_x = front_contactbd0p_x * model.front_h_y;
   const Real p_7_0f_y = front_contactbd0p_y * model.front_h_y;
   const Real p_7_0f_z = front_contactbd0p_z * model.front_h_y;
@@ -1530,47 +1536,48 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real t313 = p_8_3N_x * Real(3.571428571428571);
   const Real t316 = p_8_2n_x * Real(3.571428571428571);
   const Real t319 = p_7_2n_z * model.c29;
-  const Real t328 = p_7_2n_y * t319 - (p_8_3N_x * t309 - (t245 - (Real(0.3090169943749474) * S2b_xy +
-      Real(0.9510565162951535) * S2b_xz)));
-  const Real t343 = Real(0.3090169943749474) * (S2at2r0_y - model.SR_z) + (model.r_steer_z * (h2at2_x +
-      model.c9) + (model.r_steer_x * t258 - (p_7_2n_x * t319 + (Real(0.9510565162951535) * S2at2r0_z -
-      p_8_2n_x * t309)))) + Real(25.349999999999998);
+  const Real t328 = p_7_2n_y * t319 - (p_8_3N_x * t309 + (Real(0.3090169943749474) * S2b_xy +
+      (Real(0.9510565162951535) * S2b_xz - t245)));
+  const Real t343 = Real(0.3090169943749474) * (S2at2r0_y - model.SR_z) + (model.r_steer_x * t258 -
+      (Real(0.9510565162951535) * S2at2r0_z - Real(25.349999999999998)) + (p_7_2n_x * t319 + (p_8_2n_x * t309
+      + model.r_steer_z * (h2at2_x + model.c9))));
   const Real t346 = p_7_0f_z * t319 + (q0r2_x * h2b_x - q0r2_y * h2c_x);
   const Real t349 = p_7_0f_y * t319 - (q0r1_x * h2b_x + q0r1_y * h2c_x);
-  const Real t352 = p_7_0f_x * t319 - (q0r0_x * h2b_x - q0r0_y * h2c_x);
+  const Real t352 = p_7_0f_x * t319 + (q0r0_x * h2b_x + q0r0_y * h2c_x);
   const Real t353 = p_7_2n_y * model.c29;
   const Real t359 = p_7_2n_x * model.c29;
   const Real t364 = p_7_0f_z * model.c29;
   const Real t368 = p_7_0f_y * model.c29;
   const Real t371 = p_7_0f_x * model.c29;
-  const Real t373 = Real(1.0) / (p_7_2n_z * t319 - (p_8_2n_z * t309 + (S2c_yy - S1c_xx)));
+  const Real t373 = Real(1.0) / (S1c_xx + (p_7_2n_z * t319 - (S2c_yy + p_8_2n_z * t309)));
   const Real t374 = t328 * t373;
-  const Real t387 = t343 * t374 + (p_7_2n_x * t353 - (p_8_2n_x * t313 - (t241 + (Real(0.3090169943749474) *
-      S2b_xz - Real(0.9510565162951535) * S2b_xy))));
+  const Real t387 = t343 * t374 - (p_7_2n_x * t353 - (Real(0.3090169943749474) * S2b_xz + t241 -
+      (Real(0.9510565162951535) * S2b_xy + p_8_2n_x * t313)));
   const Real t391 = t346 * t374 - (p_7_0f_z * t353 + (q0r2_x * h2c_z - q0r2_z * h2c_x));
   const Real t395 = t349 * t374 - (p_7_0f_y * t353 - (q0r1_x * h2c_z + q0r1_z * h2c_x));
-  const Real t399 = t352 * t374 - (p_7_0f_x * t353 - (q0r0_x * h2c_z + q0r0_z * h2c_x));
+  const Real t399 = t352 * t374 - (p_7_0f_x * t353 + (q0r0_x * h2c_z - q0r0_z * h2c_x));
   const Real t400 = t343 * t373;
   const Real t405 = t346 * t373;
   const Real t409 = t349 * t373;
   const Real t412 = t352 * t373;
-  const Real t414 = Real(1.0) / (t328 * t374 - (p_7_2n_y * t353 - (p_8_3N_x * t313 - (S1c_xx + S1c_zz))) +
-      Real(0.12));
+  const Real t414 = Real(1.0) / (t328 * t374 - (p_7_2n_y * t353 - (p_8_3N_x * t313 + Real(0.12)) + (S1c_xx -
+      S1c_zz)));
   const Real t415 = t387 * t414;
-  const Real t426 = t391 * t415 - (t346 * t400 + (p_7_0f_z * t359 + (q0r2_y * h2c_z - q0r2_z * h2b_x)));
-  const Real t431 = t395 * t415 - (t349 * t400 + (p_7_0f_y * t359 + (q0r1_y * h2c_z - q0r1_z * h2b_x)));
-  const Real t436 = t399 * t415 - (t352 * t400 + (p_7_0f_x * t359 - (q0r0_y * h2c_z + q0r0_z * h2b_x)));
+  const Real t426 = t391 * t415 - (t346 * t400 - (p_7_0f_z * t359 - (q0r2_y * h2c_z - q0r2_z * h2b_x)));
+  const Real t431 = t395 * t415 - (t349 * t400 - (p_7_0f_y * t359 - (q0r1_y * h2c_z - q0r1_z * h2b_x)));
+  const Real t436 = t399 * t415 - (t352 * t400 - (p_7_0f_x * t359 + (q0r0_y * h2c_z + q0r0_z * h2b_x)));
   const Real t437 = t391 * t414;
   const Real t441 = t395 * t414;
   const Real t444 = t399 * t414;
-  const Real t446 = Real(1.0) / (t387 * t415 - (t343 * t400 - (p_7_2n_x * t359 - (p_8_2n_x * t316 + (S2c_yy -
-      S1c_zz)))));
+  const Real t446 = Real(1.0) / (t387 * t415 - (t343 * t400 + (S1c_zz - (p_7_2n_x * t359 - (S2c_yy + p_8_2n_x
+      * t316)))));
   const Real t447 = t426 * t446;
   const Real t457 = t431 * t447 - (t395 * t437 + (p_7_0f_y * t364 - t349 * t405));
   const Real t461 = t436 * t447 - (t399 * t437 + (p_7_0f_x * t364 - t352 * t405));
   const Real t462 = t431 * t446;
   const Real t465 = t436 * t446;
-  const Real t467 = Real(1.0) / (t426 * t447 - (t391 * t437 + (p_7_0f_z * t364 - t346 * t405)) - Real(94.0));
+  const Real t467 = Real(1.0) / (t426 * t447 - (t391 * t437 - (t346 * t405 - (p_7_0f_z * t364 +
+      Real(94.0)))));
   const Real t468 = t457 * t467;
   const Real t479 = t461 * t468 - (t436 * t462 - (t399 * t441 + (p_7_0f_x * t368 - t352 * t409)));
   const Real t480 = t461 * t467;
@@ -1584,45 +1591,45 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real t508 = t447 * t501 - (t437 * t493 - (Real(1.0) + t94 * t405));
   const Real t514 = t468 * t508 - (t462 * t501 + (t94 * t409 - t441 * t493));
   const Real t520 = t483 * t514 - (t480 * t508 - (t465 * t501 + (t94 * t412 - t444 * t493)));
-  const Real t522 = model.rear_radius * q0r0_x + rear_contacts1bn0_z * t374;
-  const Real t531 = t415 * t522 - (rear_contacts1bn0_z * t400 - (t118 + (q0r1_x * rear_contactc_z - q0r2_x *
-      rear_contactc_y)));
-  const Real t537 = t447 * t531 + (rear_contacts1bn0_z * t405 - t437 * t522);
-  const Real t543 = t468 * t537 - (t462 * t531 + (rear_contacts1bn0_z * t409 - t441 * t522));
-  const Real t550 = t483 * t543 - (t480 * t537 - (t465 * t531 - (t444 * t522 + (Real(1.0) -
+  const Real t522 = model.rear_radius * q0r0_x - rear_contacts1bn0_z * t374;
+  const Real t531 = t415 * t522 + (rear_contacts1bn0_z * t400 - (q0r1_x * rear_contactc_z - (q0r2_x *
+      rear_contactc_y - t118)));
+  const Real t537 = t447 * t531 - (rear_contacts1bn0_z * t405 + t437 * t522);
+  const Real t543 = t468 * t537 - (t462 * t531 - (rear_contacts1bn0_z * t409 + t441 * t522));
+  const Real t550 = t483 * t543 - (t480 * t537 - (t465 * t531 - (t444 * t522 - (Real(1.0) -
       rear_contacts1bn0_z * t412))));
   const Real t552 = model.rear_radius * q0r1_x - rear_contacts2bn0_z * t374;
-  const Real t561 = t415 * t552 + (rear_contacts2bn0_z * t400 - (q0r2_x * rear_contactc_x + (t105 + q0r0_x *
-      rear_contactc_z)));
+  const Real t561 = t415 * t552 + (rear_contacts2bn0_z * t400 + (q0r0_x * rear_contactc_z - (t105 + q0r2_x *
+      rear_contactc_x)));
   const Real t567 = t447 * t561 - (rear_contacts2bn0_z * t405 + t437 * t552);
   const Real t574 = t468 * t567 - (t462 * t561 - (t441 * t552 + (Real(1.0) + rear_contacts2bn0_z * t409)));
   const Real t580 = t483 * t574 - (t480 * t567 - (t465 * t561 - (rear_contacts2bn0_z * t412 + t444 * t552)));
   const Real t583 = t89 * t319 - (q0r2_y * t73 - q0r2_x * t87);
   const Real t592 = t374 * t583 - (t89 * t353 - (t73 * t79 - q0r2_x * t71));
-  const Real t601 = t415 * t592 - (t400 * t583 + (t89 * t359 + (q0r2_y * t71 - t79 * t87)));
+  const Real t601 = t415 * t592 - (t400 * t583 - (t89 * t359 - (q0r2_y * t71 - t79 * t87)));
   const Real t609 = t447 * t601 - (t437 * t592 - (t405 * t583 - (Real(1.0) + t89 * t364)));
   const Real t616 = t468 * t609 - (t462 * t601 - (t441 * t592 + (t89 * t368 - t409 * t583)));
   const Real t623 = t483 * t616 - (t480 * t609 - (t465 * t601 - (t444 * t592 + (t89 * t371 - t412 * t583))));
-  const Real t631 = front_contacts1bm_z * t319 + (front_contacts1bn3p_x * t309 + (front_contactbx2p_x * q0r0_y
-      + (front_contacts1bn0_z - front_contactbx3_x * q0r0_x)));
-  const Real t642 = t374 * t631 - (front_contacts1bm_z * t353 + (front_contacts1bn3p_x * t313 -
-      (front_contactbx2p_x * q0r0_z + (front_contacts1bn0_y + front_contactbx2p_z * q0r0_x))));
-  const Real t653 = t415 * t642 - (t400 * t631 + (front_contacts1bm_z * t359 + (front_contacts1bn3p_x * t316 -
-      (front_contactbx3_x * q0r0_z + (front_contacts1bn0_x + front_contactbx2p_z * q0r0_y)))));
+  const Real t631 = front_contacts1bn3p_x * t309 + (front_contacts1bm_z * t319 + (front_contacts1bn0_z +
+      (front_contactbx3_x * q0r0_x + front_contactbx2p_x * q0r0_y)));
+  const Real t642 = t374 * t631 - (front_contacts1bn3p_x * t313 + (front_contacts1bm_z * t353 -
+      (front_contacts1bn0_y - (front_contactbx2p_z * q0r0_x - front_contactbx2p_x * q0r0_z))));
+  const Real t653 = t415 * t642 - (t400 * t631 + (front_contacts1bn3p_x * t316 - (front_contacts1bm_z * t359 +
+      (front_contacts1bn0_x + (front_contactbx2p_z * q0r0_y + front_contactbx3_x * q0r0_z)))));
   const Real t660 = t447 * t653 - (t437 * t642 + (front_contacts1bm_z * t364 - t405 * t631));
   const Real t667 = t468 * t660 - (t462 * t653 - (t441 * t642 + (front_contacts1bm_z * t368 - t409 * t631)));
   const Real t675 = t483 * t667 - (t480 * t660 - (t465 * t653 - (t444 * t642 - (t412 * t631 - (Real(1.0) +
       front_contacts1bm_z * t371)))));
-  const Real t683 = front_contacts2bm_z * t319 + (front_contacts2bn3p_x * t309 - (front_contactbx2p_x * q0r1_y
-      + (front_contacts2bn0_z + front_contactbx3_x * q0r1_x)));
-  const Real t694 = t374 * t683 - (front_contacts2bm_z * t353 + (front_contacts2bn3p_x * t313 -
-      (front_contactbx2p_x * q0r1_z + (front_contacts2bn0_y + front_contactbx2p_z * q0r1_x))));
-  const Real t705 = t415 * t694 - (t400 * t683 + (front_contacts2bm_z * t359 + (front_contacts2bn3p_x * t316 -
-      (front_contactbx3_x * q0r1_z - (front_contacts2bn0_x + front_contactbx2p_z * q0r1_y)))));
-  const Real t712 = t447 * t705 - (t437 * t694 + (front_contacts2bm_z * t364 - t405 * t683));
-  const Real t720 = t468 * t712 - (t462 * t705 - (t441 * t694 - (t409 * t683 - (Real(1.0) +
+  const Real t683 = front_contacts2bn3p_x * t309 - (front_contacts2bm_z * t319 + (front_contacts2bn0_z +
+      (front_contactbx3_x * q0r1_x + front_contactbx2p_x * q0r1_y)));
+  const Real t694 = t374 * t683 - (front_contacts2bn3p_x * t313 - (front_contacts2bm_z * t353 +
+      (front_contacts2bn0_y + (front_contactbx2p_z * q0r1_x + front_contactbx2p_x * q0r1_z))));
+  const Real t705 = t415 * t694 - (t400 * t683 + (front_contacts2bn3p_x * t316 + (front_contacts2bm_z * t359 -
+      (front_contacts2bn0_x - (front_contactbx2p_z * q0r1_y - front_contactbx3_x * q0r1_z)))));
+  const Real t712 = t447 * t705 - (t437 * t694 - (front_contacts2bm_z * t364 + t405 * t683));
+  const Real t720 = t468 * t712 - (t462 * t705 - (t441 * t694 - (t409 * t683 - (Real(1.0) -
       front_contacts2bm_z * t368))));
-  const Real t727 = t483 * t720 - (t480 * t712 - (t465 * t705 - (t444 * t694 + (front_contacts2bm_z * t371 -
+  const Real t727 = t483 * t720 - (t480 * t712 - (t465 * t705 - (t444 * t694 - (front_contacts2bm_z * t371 +
       t412 * t683))));
   const Real t740 = t491 * t550;
   const Real t741 = t482 * t543;
@@ -1630,7 +1637,7 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real t743 = t446 * t531;
   const Real t744 = t414 * t522;
   const Real t745 = rear_contacts1bn0_z * t373;
-  const Real t756 = t94 * t745 - (t493 * t744 - (t501 * t743 - (t508 * t742 + (t520 * t740 - t514 * t741))));
+  const Real t756 = t520 * t740 - (t514 * t741 - (t508 * t742 - (t501 * t743 - (t493 * t744 + t94 * t745))));
   const Real t766 = t491 * t580;
   const Real t767 = t482 * t574;
   const Real t768 = t467 * t567;
@@ -1638,14 +1645,14 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real t770 = t414 * t552;
   const Real t771 = rear_contacts2bn0_z * t373;
   const Real t772 = rear_contacts2bn0_y * Real(8.333333333333334);
-  const Real t783 = t94 * t771 + (t493 * t770 - (t501 * t769 - (t508 * t768 + (t520 * t766 - t514 * t767))));
+  const Real t783 = t520 * t766 - (t514 * t767 - (t508 * t768 - (t501 * t769 - (t493 * t770 + t94 * t771))));
   const Real t798 = t491 * t623;
   const Real t799 = t482 * t616;
   const Real t800 = t467 * t609;
   const Real t801 = t446 * t601;
   const Real t802 = t414 * t592;
   const Real t803 = t373 * t583;
-  const Real t814 = t94 * t803 - (t493 * t802 - (t501 * t801 - (t508 * t800 + (t520 * t798 - t514 * t799))));
+  const Real t814 = t520 * t798 - (t514 * t799 - (t508 * t800 - (t501 * t801 - (t493 * t802 - t94 * t803))));
   const Real t835 = t491 * t675;
   const Real t836 = t482 * t667;
   const Real t837 = t467 * t660;
@@ -1653,7 +1660,7 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real t839 = t414 * t642;
   const Real t840 = t373 * t631;
   const Real t841 = front_contacts1bm_z * model.c29;
-  const Real t852 = t94 * t840 - (t493 * t839 - (t501 * t838 - (t508 * t837 + (t520 * t835 - t514 * t836))));
+  const Real t852 = t520 * t835 - (t514 * t836 - (t508 * t837 - (t501 * t838 - (t493 * t839 - t94 * t840))));
   const Real t881 = t491 * t727;
   const Real t882 = t482 * t720;
   const Real t883 = t467 * t712;
@@ -1662,109 +1669,109 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real t886 = t373 * t683;
   const Real t887 = front_contacts2bm_z * model.c29;
   const Real t888 = front_contacts2bn3p_x * Real(3.571428571428571);
-  const Real t899 = t94 * t886 - (t493 * t885 - (t501 * t884 - (t508 * t883 + (t520 * t881 - t514 * t882))));
-  const Real t942 = Real(1.0) / (t94 * (t94 * t373) - (t493 * (t414 * t493) - (t501 * (t446 * t501) - (t508 *
-      (t467 * t508) + (t520 * (t491 * t520) - t514 * (t482 * t514))))) + Real(1.8087085566416913e-12));
+  const Real t899 = t520 * t881 - (t514 * t882 - (t508 * t883 - (t501 * t884 - (t493 * t885 - t94 * t886))));
+  const Real t942 = Real(1.0) / (t491 * (t520 * t520) - (t482 * (t514 * t514) - (t467 * (t508 * t508) - (t446
+      * (t501 * t501) - (t414 * (t493 * t493) - (t373 * (t94 * t94) + Real(1.8087085566416913e-12)))))));
   const Real t943 = t756 * t942;
   const Real t954 = t783 * t942;
-  const Real t962 = t756 * t954 + (rear_contacts1bn0_y * t772 - (rear_contacts1bn0_z * t771 + (t522 * t770 -
-      (t531 * t769 - (t537 * t768 + (t550 * t766 - t543 * t767))))));
+  const Real t962 = t756 * t954 - (t550 * t766 - (t543 * t767 - (t537 * t768 - (t531 * t769 - (t522 * t770 -
+      (rear_contacts1bn0_z * t771 - rear_contacts1bn0_y * t772))))));
   const Real t964 = t814 * t942;
-  const Real t971 = t756 * t964 - (rear_contacts1bn0_z * t803 - (t522 * t802 - (t531 * t801 - (t537 * t800 +
-      (t550 * t798 - t543 * t799)))));
+  const Real t971 = t756 * t964 - (t550 * t798 - (t543 * t799 - (t537 * t800 - (t531 * t801 - (t522 * t802 +
+      rear_contacts1bn0_z * t803)))));
   const Real t974 = t852 * t942;
-  const Real t981 = t756 * t974 - (rear_contacts1bn0_z * t840 - (t522 * t839 - (t531 * t838 - (t537 * t837 +
-      (t550 * t835 - t543 * t836)))));
+  const Real t981 = t756 * t974 - (t550 * t835 - (t543 * t836 - (t537 * t837 - (t531 * t838 - (t522 * t839 +
+      rear_contacts1bn0_z * t840)))));
   const Real t985 = t899 * t942;
-  const Real t992 = t756 * t985 - (rear_contacts1bn0_z * t886 - (t522 * t885 - (t531 * t884 - (t537 * t883 +
-      (t550 * t881 - t543 * t882)))));
-  const Real t997 = Real(1.0) / (t756 * t943 - (rear_contacts1bn0_y * rear_contacts1bn0_y *
-      Real(8.333333333333334) + (rear_contacts1bn0_z * t745 - (t522 * t744 - (t531 * t743 - (t537 * t742 +
-      (t550 * t740 - t543 * t741)))))) - Real(7.806783314072456e-11));
+  const Real t992 = t756 * t985 - (t550 * t881 - (t543 * t882 - (t537 * t883 - (t531 * t884 - (t522 * t885 +
+      rear_contacts1bn0_z * t886)))));
+  const Real t997 = Real(1.0) / (t756 * t943 - (t550 * t740 - (t543 * t741 - (t537 * t742 - (t531 * t743 -
+      (t522 * t744 - (rear_contacts1bn0_z * t745 + (rear_contacts1bn0_y * (rear_contacts1bn0_y *
+      Real(8.333333333333334)) + Real(7.806783314072456e-11)))))))));
   const Real t998 = t962 * t997;
   const Real t1010 = t971 * t997;
-  const Real t1018 = t962 * t1010 - (t783 * t964 - (rear_contacts2bn0_z * t803 + (t552 * t802 - (t561 * t801 -
-      (t567 * t800 + (t580 * t798 - t574 * t799))))));
+  const Real t1018 = t962 * t1010 - (t783 * t964 - (t580 * t798 - (t574 * t799 - (t567 * t800 - (t561 * t801 -
+      (t552 * t802 + rear_contacts2bn0_z * t803))))));
   const Real t1020 = t981 * t997;
-  const Real t1028 = t962 * t1020 - (t783 * t974 - (rear_contacts2bn0_z * t840 + (t552 * t839 - (t561 * t838 -
-      (t567 * t837 + (t580 * t835 - t574 * t836))))));
+  const Real t1028 = t962 * t1020 - (t783 * t974 - (t580 * t835 - (t574 * t836 - (t567 * t837 - (t561 * t838 -
+      (t552 * t839 + rear_contacts2bn0_z * t840))))));
   const Real t1031 = t992 * t997;
-  const Real t1039 = t962 * t1031 - (t783 * t985 - (rear_contacts2bn0_z * t886 + (t552 * t885 - (t561 * t884 -
-      (t567 * t883 + (t580 * t881 - t574 * t882))))));
-  const Real t1043 = Real(1.0) / (t962 * t998 - (t783 * t954 - (rear_contacts2bn0_y * t772 +
-      (rear_contacts2bn0_z * t771 - (t552 * t770 - (t561 * t769 - (t567 * t768 + (t580 * t766 - t574 *
-      t767))))))) + Real(8.816994788327498e-12));
+  const Real t1039 = t962 * t1031 - (t783 * t985 - (t580 * t881 - (t574 * t882 - (t567 * t883 - (t561 * t884 -
+      (t552 * t885 + rear_contacts2bn0_z * t886))))));
+  const Real t1043 = Real(1.0) / (t962 * t998 - (t783 * t954 - (t580 * t766 - (t574 * t767 - (t567 * t768 -
+      (t561 * t769 - (t552 * t770 - (rear_contacts2bn0_z * t771 + (rear_contacts2bn0_y * t772 +
+      Real(8.816994788327498e-12))))))))));
   const Real t1044 = t1018 * t1043;
   const Real t1057 = t1028 * t1043;
-  const Real t1067 = t1018 * t1057 - (t971 * t1020 - (t814 * t974 + (t89 * t841 - (t583 * t840 - (t592 * t839
-      - (t601 * t838 - (t609 * t837 + (t623 * t835 - t616 * t836))))))));
+  const Real t1067 = t1018 * t1057 - (t971 * t1020 - (t814 * t974 - (t623 * t835 - (t616 * t836 - (t609 * t837
+      - (t601 * t838 - (t592 * t839 - (t583 * t840 - t89 * t841))))))));
   const Real t1069 = t1039 * t1043;
-  const Real t1079 = t1018 * t1069 - (t971 * t1031 - (t814 * t985 + (t89 * t887 - (t583 * t886 - (t592 * t885
-      - (t601 * t884 - (t609 * t883 + (t623 * t881 - t616 * t882))))))));
-  const Real t1082 = Real(1.0) / (t1018 * t1044 - (t971 * t1010 - (t814 * t964 + (model.c29 * (t89 * t89) -
-      (t583 * t803 - (t592 * t802 - (t601 * t801 - (t609 * t800 + (t623 * t798 - t616 * t799)))))))) -
-      Real(3.988016169236579e-12));
+  const Real t1079 = t1018 * t1069 - (t971 * t1031 - (t814 * t985 - (t623 * t881 - (t616 * t882 - (t609 * t883
+      - (t601 * t884 - (t592 * t885 - (t583 * t886 + t89 * t887))))))));
+  const Real t1082 = Real(1.0) / (t1018 * t1044 - (t971 * t1010 - (t814 * t964 - (t623 * t798 - (t616 * t799 -
+      (t609 * t800 - (t601 * t801 - (t592 * t802 - (t583 * t803 - (t89 * (t89 * model.c29) -
+      Real(3.988016169236579e-12)))))))))));
   const Real t1083 = t1067 * t1082;
   const Real t1098 = t1079 * t1082;
-  const Real t1110 = t1067 * t1098 - (t1028 * t1069 - (t981 * t1031 - (t852 * t985 - (front_contacts1bn3p_x *
-      t888 - (front_contacts1bm_z * t887 - (t631 * t886 - (t642 * t885 - (t653 * t884 - (t660 * t883 + (t675 *
-      t881 - t667 * t882))))))))));
-  const Real t1112 = Real(1.0) / (t1067 * t1083 - (t1028 * t1057 - (t981 * t1020 - (t852 * t974 -
-      (Real(3.571428571428571) * (front_contacts1bn3p_x * front_contacts1bn3p_x) - (front_contacts1bm_z * t841
-      - (t631 * t840 - (t642 * t839 - (t653 * t838 - (t660 * t837 + (t675 * t835 - t667 * t836)))))))))) +
-      Real(4.6476630875276904e-11));
+  const Real t1110 = t1067 * t1098 - (t1028 * t1069 - (t981 * t1031 - (t852 * t985 - (t675 * t881 - (t667 *
+      t882 - (t660 * t883 - (t653 * t884 - (t642 * t885 - (t631 * t886 + (front_contacts1bm_z * t887 +
+      front_contacts1bn3p_x * t888))))))))));
+  const Real t1112 = Real(1.0) / (t1067 * t1083 - (t1028 * t1057 - (t981 * t1020 - (t852 * t974 - (t675 * t835
+      - (t667 * t836 - (t660 * t837 - (t653 * t838 - (t642 * t839 - (t631 * t840 + (front_contacts1bn3p_x *
+      (front_contacts1bn3p_x * Real(3.571428571428571)) - (front_contacts1bm_z * t841 -
+      Real(4.6476630875276904e-11)))))))))))));
   const Real t1113 = t1110 * t1112;
   const Real t1129 = Real(1.0) / (t1110 * t1113 - (t1079 * t1098 - (t1039 * t1069 - (t992 * t1031 - (t899 *
-      t985 - (front_contacts2bn3p_x * t888 - (front_contacts2bm_z * t887 - (t683 * t886 - (t694 * t885 - (t705
-      * t884 - (t712 * t883 + (t727 * t881 - t720 * t882))))))))))) - Real(2.7054786900152528e-11));
+      t985 - (t727 * t881 - (t720 * t882 - (t712 * t883 - (t705 * t884 - (t694 * t885 - (t683 * t886 +
+      (front_contacts2bn3p_x * t888 - (front_contacts2bm_z * t887 - Real(2.7054786900152528e-11))))))))))))));
   const Real t1130 = g_rear_contact * t943;
   const Real t1136 = g_rear_contact * t954 - t998 * t1130;
   const Real t1147 = t1044 * t1136 + (t1010 * t1130 - (g_rear_contact * t964 + (front_contactup *
-      model.front_radius + (q0r2_z * front_contactbx2p_z + (q0r2_y * front_contactbx3_x + (state.y[2] + q0r2_x
-      * front_contactbx2p_x))))));
+      model.front_radius + (q0r2_z * front_contactbx2p_z + (q0r2_x * front_contactbx2p_x + (state.y[2] +
+      q0r2_y * front_contactbx3_x))))));
   const Real t1153 = t1083 * t1147 - (t1057 * t1136 - (g_rear_contact * t974 - t1020 * t1130));
   const Real t1165 = t1129 * (t1113 * t1153 - (t1098 * t1147 - (t1069 * t1136 - (g_rear_contact * t985 - t1031
       * t1130))));
   const Real t1167 = t1112 * t1153 - t1113 * t1165;
-  const Real t1171 = t1098 * t1165 - (t1082 * t1147 - t1083 * t1167);
-  const Real t1177 = t1069 * t1165 + (t1057 * t1167 - (t1043 * t1136 + t1044 * t1171));
-  const Real t1185 = t1031 * t1165 + (t1020 * t1167 - (t1010 * t1171 - (t997 * t1130 - t998 * t1177)));
-  const Real t1195 = t985 * t1165 + (t974 * t1167 - (t964 * t1171 + (t954 * t1177 - (g_rear_contact * t942 -
-      t943 * t1185))));
-  const Real t1273 = t491 * (t727 * t1165 + (t675 * t1167 - (t623 * t1171 - (t580 * t1177 - (t520 * t1195 +
-      t550 * t1185)))));
-  const Real t1276 = t482 * (t720 * t1165 + (t667 * t1167 - (t616 * t1171 - (t574 * t1177 - (t514 * t1195 +
-      t543 * t1185))))) - t483 * t1273;
-  const Real t1281 = t468 * t1276 - (t467 * (t712 * t1165 + (t660 * t1167 - (t609 * t1171 - (t567 * t1177 -
-      (t508 * t1195 + t537 * t1185))))) - t480 * t1273);
-  const Real t1288 = t447 * t1281 - (t462 * t1276 - (t446 * (t705 * t1165 + (t653 * t1167 - (t601 * t1171 -
-      (t561 * t1177 - (t501 * t1195 + t531 * t1185))))) - t465 * t1273));
-  const Real t1297 = t415 * t1288 - (t437 * t1281 - (t441 * t1276 - (t414 * (t694 * t1165 + (t642 * t1167 -
-      (t592 * t1171 - (t552 * t1177 - (t493 * t1195 + t522 * t1185))))) - t444 * t1273)));
-  const Real t1308 = t374 * t1297 - (t400 * t1288 - (t405 * t1281 - (t409 * t1276 - (t373 * (t683 * t1165 +
-      (t631 * t1167 - (t583 * t1171 + (rear_contacts2bn0_z * t1177 + (t94 * t1195 + rear_contacts1bn0_z *
-      t1185))))) - t412 * t1273))));
-  const Real t1310 = t1297 + Real(8.333333333333334) * (rear_contacts1bn0_y * t1185 - rear_contacts2bn0_y *
+  const Real t1171 = t1083 * t1167 - (t1082 * t1147 - t1098 * t1165);
+  const Real t1177 = t1044 * t1171 - (t1057 * t1167 - (t1043 * t1136 - t1069 * t1165));
+  const Real t1185 = t998 * t1177 - (t1010 * t1171 - (t1020 * t1167 + (t997 * t1130 + t1031 * t1165)));
+  const Real t1195 = t943 * t1185 - (t954 * t1177 - (t964 * t1171 - (t974 * t1167 + (g_rear_contact * t942 +
+      t985 * t1165))));
+  const Real t1273 = t491 * (t520 * t1195 - (t550 * t1185 - (t580 * t1177 - (t623 * t1171 - (t675 * t1167 +
+      t727 * t1165)))));
+  const Real t1276 = t482 * (t514 * t1195 - (t543 * t1185 - (t574 * t1177 - (t616 * t1171 - (t667 * t1167 +
+      t720 * t1165))))) - t483 * t1273;
+  const Real t1281 = t468 * t1276 - (t467 * (t508 * t1195 - (t537 * t1185 - (t567 * t1177 - (t609 * t1171 -
+      (t660 * t1167 + t712 * t1165))))) - t480 * t1273);
+  const Real t1288 = t447 * t1281 - (t462 * t1276 - (t446 * (t501 * t1195 - (t531 * t1185 - (t561 * t1177 -
+      (t601 * t1171 - (t653 * t1167 + t705 * t1165))))) - t465 * t1273));
+  const Real t1297 = t415 * t1288 - (t437 * t1281 - (t441 * t1276 - (t414 * (t493 * t1195 - (t522 * t1185 -
+      (t552 * t1177 - (t592 * t1171 - (t642 * t1167 + t694 * t1165))))) - t444 * t1273)));
+  const Real t1308 = t374 * t1297 - (t400 * t1288 - (t405 * t1281 - (t409 * t1276 - (t373 * (t94 * t1195 +
+      (rear_contacts1bn0_z * t1185 - (rear_contacts2bn0_z * t1177 + (t583 * t1171 - (t631 * t1167 + t683 *
+      t1165))))) - t412 * t1273))));
+  const Real t1310 = t1297 - Real(8.333333333333334) * (rear_contacts1bn0_y * t1185 + rear_contacts2bn0_y *
       t1177);
-  const Real t1311 = model.c29 * (front_contacts2bm_z * t1165 - (t89 * t1171 - front_contacts1bm_z * t1167));
+  const Real t1311 = model.c29 * (t89 * t1171 - (front_contacts1bm_z * t1167 - front_contacts2bm_z * t1165));
   const Real t1312 = t371 * t1273;
   const Real t1313 = t368 * t1276;
   const Real t1314 = t364 * t1281;
   const Real t1315 = t359 * t1288;
   const Real t1316 = t353 * t1297;
   const Real t1317 = t319 * t1308;
-  const Real t1323 = t1317 - (t1316 + (t1315 + (t1314 - (t1313 - (t1311 - t1312)))));
+  const Real t1323 = t1317 - (t1316 - (t1315 - (t1314 - (t1313 + (t1311 + t1312)))));
   const Real t1330 = t309 * t1308 - (t313 * t1297 - (Real(3.571428571428571) * (front_contacts1bn3p_x * t1167
       + front_contacts2bn3p_x * t1165) - t316 * t1288));
   const Real t1341 = Real(0.5) * t1288;
   const Real t1342 = Real(0.5) * t1297;
   const Real t1343 = Real(0.5) * t1308;
-  const Real t1350 = state.y[6] * t1342 + (state.y[5] * t1343 + (state.y[4] + state.y[3] * t1341));
-  const Real t1357 = state.y[4] * t1343 - (state.y[6] * t1341 + (state.y[5] - state.y[3] * t1342));
-  const Real t1361 = state.y[6] * t1343 - (state.y[5] * t1342 + (state.y[3] - state.y[4] * t1341));
-  const Real t1367 = state.y[5] * t1341 + (state.y[4] * t1342 - (state.y[6] + state.y[3] * t1343));
-  const Real t1376 = Real(1.0) / detail::square_root(t1367 * t1367 + (t1357 * t1357 + (t1361 * t1361 + t1350 *
-      t1350)));
+  const Real t1350 = state.y[5] * t1343 + (state.y[6] * t1342 - (state.y[4] - state.y[3] * t1341));
+  const Real t1357 = state.y[4] * t1343 + (state.y[3] * t1342 + (state.y[5] - state.y[6] * t1341));
+  const Real t1361 = state.y[6] * t1343 - (state.y[5] * t1342 - (state.y[3] + state.y[4] * t1341));
+  const Real t1367 = state.y[3] * t1343 - (state.y[4] * t1342 + (state.y[6] + state.y[5] * t1341));
+  const Real t1376 = Real(1.0) / detail::square_root(t1361 * t1361 + t1350 * t1350 + (t1357 * t1357 + t1367 *
+      t1367));
   const Real t1377 = t1361 * t1376;
   const Real t1378 = t1350 * t1376;
   const Real t1379 = t1357 * t1376;
@@ -1776,185 +1783,185 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real q022_2 = t1379 * q0d2_2;
   const Real q023_2 = t1379 * q0d3_2;
   const Real q001_2 = t1377 * q0d1_2;
-  const Real q0r2_y_2 = q023_2 - q001_2;
+  const Real q0r2_y_2 = q023_2 + q001_2;
   const Real t1389 = Real(1.0) - q011_2;
   const Real q0r2_z_2 = q022_2 - t1389;
   const Real t1392 = Real(1.0) - q0r2_y_2 * q0r2_y_2;
   const Real rear_contactup_2 = detail::square_root(t1392);
   const Real q013_2 = t1378 * q0d3_2;
   const Real q002_2 = t1377 * q0d2_2;
-  const Real q0r2_x_2 = q013_2 + q002_2;
+  const Real q0r2_x_2 = q013_2 - q002_2;
   Real t1397, t1398;
   detail::sine_cosine(t1311, t1397, t1398);
   Real t1399, t1400;
   detail::sine_cosine(t1312, t1399, t1400);
-  const Real t1403 = t1398 * t1399 - t1397 * t1400;
-  const Real t1406 = t1397 * t1399 + t1398 * t1400;
+  const Real t1403 = t1398 * t1399 + t1397 * t1400;
+  const Real t1406 = t1397 * t1399 - t1398 * t1400;
   Real t1407, t1408;
   detail::sine_cosine(t1313, t1407, t1408);
-  const Real t1411 = t1406 * t1407 + t1403 * t1408;
-  const Real t1414 = t1403 * t1407 - t1406 * t1408;
+  const Real t1411 = t1406 * t1407 - t1403 * t1408;
+  const Real t1414 = t1403 * t1407 + t1406 * t1408;
   Real t1415, t1416;
   detail::sine_cosine(t1314, t1415, t1416);
-  const Real t1419 = t1414 * t1415 + t1411 * t1416;
-  const Real t1422 = t1411 * t1415 - t1414 * t1416;
+  const Real t1419 = t1414 * t1415 - t1411 * t1416;
+  const Real t1422 = t1411 * t1415 + t1414 * t1416;
   Real t1423, t1424;
   detail::sine_cosine(t1315, t1423, t1424);
   const Real t1427 = t1422 * t1423 - t1419 * t1424;
   const Real t1430 = t1419 * t1423 + t1422 * t1424;
   Real t1431, t1432;
   detail::sine_cosine(t1316, t1431, t1432);
-  const Real t1435 = t1430 * t1431 + t1427 * t1432;
-  const Real t1438 = t1427 * t1431 - t1430 * t1432;
+  const Real t1435 = t1430 * t1431 - t1427 * t1432;
+  const Real t1438 = t1427 * t1431 + t1430 * t1432;
   Real t1439, t1440;
   detail::sine_cosine(t1317, t1439, t1440);
-  const Real t1443 = t1438 * t1439 + t1435 * t1440;
-  const Real t1446 = t1435 * t1439 - t1438 * t1440;
+  const Real t1443 = t1438 * t1439 - t1435 * t1440;
+  const Real t1446 = t1435 * t1439 + t1438 * t1440;
   const Real s2_2 = c2 * t1443 - s2 * t1446;
   const Real c2_2 = s2 * t1443 + c2 * t1446;
   const Real front_contactbx3_x_2 = model.r_front_y * s2_2;
   const Real front_contactbx3_y_2 = model.r_front_y * c2_2;
-  const Real front_contactbx2p_x_2 = model.c25 + Real(0.9510565162951535) * front_contactbx3_y_2;
-  const Real front_contactbx2p_z_2 = model.c26 + Real(0.3090169943749474) * front_contactbx3_y_2;
+  const Real front_contactbx2p_x_2 = model.c25 - Real(0.9510565162951535) * front_contactbx3_y_2;
+  const Real front_contactbx2p_z_2 = model.c26 - Real(0.3090169943749474) * front_contactbx3_y_2;
   const Real front_contactbd2p_x_2 = Real(0.9510565162951535) * s2_2;
   const Real front_contactbd2p_z_2 = Real(0.3090169943749474) * s2_2;
-  const Real front_contactbd0p_z_2 = q0r2_z_2 * front_contactbd2p_z_2 - (q0r2_x_2 * front_contactbd2p_x_2 -
+  const Real front_contactbd0p_z_2 = q0r2_z_2 * front_contactbd2p_z_2 + (q0r2_x_2 * front_contactbd2p_x_2 -
       q0r2_y_2 * c2_2);
   const Real t1467 = Real(1.0) - front_contactbd0p_z_2 * front_contactbd0p_z_2;
   const Real front_contactup_2 = detail::square_root(t1467);
   const Real t1472 = model.c30 * ((front_contactbd0p_z_2 + front_contactbd0p_z_2) / front_contactup_2);
   const Real t1485 = front_contactbx2p_z_2 - front_contactbd2p_z_2 * t1472;
   const Real t1487 = front_contactbx2p_x_2 - front_contactbd2p_x_2 * t1472;
-  const Real t1491 = t1379 * t1379 + (t1378 * t1378 - (t1380 * t1380 + t1377 * t1377));
-  const Real t1497 = front_contactbx3_x_2 + c2_2 * t1472;
+  const Real t1491 = t1380 * t1380 - t1378 * t1378 - (t1379 * t1379 - t1377 * t1377);
+  const Real t1497 = front_contactbx3_x_2 - c2_2 * t1472;
   const Real t1501 = model.c31 * ((q0r2_y_2 + q0r2_y_2) / rear_contactup_2);
   const Real q033_2 = t1380 * q0d3_2;
   const Real q012_2 = t1378 * q0d2_2;
   const Real q003_2 = t1377 * q0d3_2;
-  const Real q0r0_x_2 = q022_2 - (Real(1.0) - q033_2);
-  const Real q0r0_y_2 = q012_2 + q003_2;
-  const Real q0r1_x_2 = q012_2 - q003_2;
+  const Real q0r0_x_2 = q033_2 - (Real(1.0) - q022_2);
+  const Real q0r0_y_2 = q012_2 - q003_2;
+  const Real q0r1_x_2 = q012_2 + q003_2;
   const Real q0r1_y_2 = t1389 - q033_2;
-  const Real q0r1_z_2 = q023_2 + q001_2;
-  const Real t1519 = model.rear_radius * q0r1_y_2;
-  const Real rear_contactc_y_2 = q0r2_y_2 * t1519 / rear_contactup_2;
+  const Real q0r1_z_2 = q023_2 - q001_2;
+  const Real t1518 = model.rear_radius * q0r1_y_2;
+  const Real rear_contactc_y_2 = q0r2_y_2 * t1518 / rear_contactup_2;
   const Real rear_contactc_z_2 = model.rear_radius * (t1392 / rear_contactup_2);
   const Real rear_contacts1bn0_y_2 = q0r1_y_2 * rear_contactc_z_2 + q0r2_y_2 * rear_contactc_y_2;
   const Real rear_contacts1bn0_z_2 = q0r1_z_2 * rear_contactc_z_2 - q0r2_z_2 * rear_contactc_y_2;
-  const Real t1532 = model.rear_radius * q0r0_y_2;
-  const Real rear_contacts1bm_x = t1532 + (q0r1_x_2 * rear_contactc_z_2 + q0r2_x_2 * rear_contactc_y_2);
+  const Real t1531 = model.rear_radius * q0r0_y_2;
+  const Real rear_contacts1bm_x = q0r1_x_2 * rear_contactc_z_2 + (q0r2_x_2 * rear_contactc_y_2 + t1531);
   const Real rear_contacts1bm_y = rear_contacts1bn0_y_2 + model.rear_radius * q0r0_x_2;
-  const Real q0r0_z_2 = q013_2 - q002_2;
-  const Real rear_contactc_x_2 = q0r2_y_2 * t1532 / rear_contactup_2;
+  const Real q0r0_z_2 = q013_2 + q002_2;
+  const Real rear_contactc_x_2 = q0r2_y_2 * t1531 / rear_contactup_2;
   const Real rear_contacts2bn0_y_2 = q0r0_y_2 * rear_contactc_z_2 + q0r2_y_2 * rear_contactc_x_2;
   const Real rear_contacts2bn0_z_2 = rear_contactc_z_2 * q0r0_z_2 - q0r2_z_2 * rear_contactc_x_2;
-  const Real rear_contacts2bm_x = q0r2_x_2 * rear_contactc_x_2 - (t1519 + q0r0_x_2 * rear_contactc_z_2);
+  const Real rear_contacts2bm_x = q0r0_x_2 * rear_contactc_z_2 + (t1518 - q0r2_x_2 * rear_contactc_x_2);
   const Real rear_contacts2bm_y = rear_contacts2bn0_y_2 + model.rear_radius * q0r1_x_2;
-  const Real front_contactbd0p_y_2 = front_contactbd2p_z_2 * q0r1_z_2 + (front_contactbd2p_x_2 * q0r1_x_2 -
-      c2_2 * q0r1_y_2);
+  const Real front_contactbd0p_y_2 = c2_2 * q0r1_y_2 - (front_contactbd2p_x_2 * q0r1_x_2 -
+      front_contactbd2p_z_2 * q0r1_z_2);
   const Real front_contactc_y_2 = model.front_radius * (front_contactbd0p_z_2 * front_contactbd0p_y_2 /
       front_contactup_2);
   const Real front_contactc_z_2 = model.front_radius * (t1467 / front_contactup_2);
-  const Real front_contacts1bf2_y_2 = Real(0.3090169943749474) * q0r0_z_2 - Real(0.9510565162951535) *
+  const Real front_contacts1bf2_y_2 = Real(0.3090169943749474) * q0r0_z_2 + Real(0.9510565162951535) *
       q0r0_x_2;
   const Real front_contacts1bn0_x_2 = q0r1_x_2 * front_contactc_z_2 - q0r2_x_2 * front_contactc_y_2;
   const Real front_contacts1bn0_y_2 = q0r1_y_2 * front_contactc_z_2 - q0r2_y_2 * front_contactc_y_2;
   const Real front_contacts1bn0_z_2 = q0r1_z_2 * front_contactc_z_2 + q0r2_z_2 * front_contactc_y_2;
-  const Real front_contacts1bn2_y_2 = Real(0.3090169943749474) * front_contacts1bn0_z_2 +
+  const Real front_contacts1bn2_y_2 = Real(0.3090169943749474) * front_contacts1bn0_z_2 -
       Real(0.9510565162951535) * front_contacts1bn0_x_2;
-  const Real front_contacts1bn3p_x_2 = c2_2 * front_contacts1bn0_y_2 - s2_2 * front_contacts1bn2_y_2;
-  const Real front_contacts1bm_z_2 = front_contactbx3_x_2 * front_contacts1bf2_y_2 - (front_contactbx3_y_2 *
-      q0r0_y_2 + (Real(0.3090169943749474) * front_contacts1bn0_x_2 - Real(0.9510565162951535) *
-      front_contacts1bn0_z_2));
-  const Real front_contacts1bm_x = front_contactbx3_x_2 * q0r0_z_2 - (front_contacts1bn0_x_2 +
-      front_contactbx2p_z_2 * q0r0_y_2);
-  const Real front_contacts1bm_y = front_contactbx2p_x_2 * q0r0_z_2 + (front_contacts1bn0_y_2 +
-      front_contactbx2p_z_2 * q0r0_x_2);
-  const Real front_contacts1bm_z_3 = front_contactbx2p_x_2 * q0r0_y_2 - (front_contacts1bn0_z_2 -
-      front_contactbx3_x_2 * q0r0_x_2);
-  const Real front_contactbd0p_x_2 = c2_2 * q0r0_y_2 - s2_2 * front_contacts1bf2_y_2;
+  const Real front_contacts1bn3p_x_2 = c2_2 * front_contacts1bn0_y_2 + s2_2 * front_contacts1bn2_y_2;
+  const Real front_contacts1bm_z_2 = Real(0.9510565162951535) * front_contacts1bn0_z_2 +
+      (Real(0.3090169943749474) * front_contacts1bn0_x_2 - (front_contactbx3_y_2 * q0r0_y_2 +
+      front_contactbx3_x_2 * front_contacts1bf2_y_2));
+  const Real front_contacts1bm_x = front_contacts1bn0_x_2 + (front_contactbx2p_z_2 * q0r0_y_2 -
+      front_contactbx3_x_2 * q0r0_z_2);
+  const Real front_contacts1bm_y = front_contacts1bn0_y_2 + (front_contactbx2p_z_2 * q0r0_x_2 -
+      front_contactbx2p_x_2 * q0r0_z_2);
+  const Real front_contacts1bm_z_3 = front_contacts1bn0_z_2 - (front_contactbx3_x_2 * q0r0_x_2 -
+      front_contactbx2p_x_2 * q0r0_y_2);
+  const Real front_contactbd0p_x_2 = c2_2 * q0r0_y_2 + s2_2 * front_contacts1bf2_y_2;
   const Real front_contactc_x_2 = model.front_radius * (front_contactbd0p_z_2 * front_contactbd0p_x_2 /
       front_contactup_2);
-  const Real front_contacts2bf2_y = Real(0.3090169943749474) * q0r1_z_2 + Real(0.9510565162951535) * q0r1_x_2;
-  const Real front_contacts2bn0_x_2 = q0r0_x_2 * front_contactc_z_2 - q0r2_x_2 * front_contactc_x_2;
-  const Real front_contacts2bn0_y_2 = q0r0_y_2 * front_contactc_z_2 + q0r2_y_2 * front_contactc_x_2;
-  const Real front_contacts2bn0_z_2 = q0r0_z_2 * front_contactc_z_2 - q0r2_z_2 * front_contactc_x_2;
-  const Real front_contacts2bn2_y_2 = Real(0.3090169943749474) * front_contacts2bn0_z_2 -
+  const Real front_contacts2bf2_y = Real(0.3090169943749474) * q0r1_z_2 - Real(0.9510565162951535) * q0r1_x_2;
+  const Real front_contacts2bn0_x_2 = q0r0_x_2 * front_contactc_z_2 + q0r2_x_2 * front_contactc_x_2;
+  const Real front_contacts2bn0_y_2 = q0r0_y_2 * front_contactc_z_2 - q0r2_y_2 * front_contactc_x_2;
+  const Real front_contacts2bn0_z_2 = q0r0_z_2 * front_contactc_z_2 + q0r2_z_2 * front_contactc_x_2;
+  const Real front_contacts2bn2_y_2 = Real(0.3090169943749474) * front_contacts2bn0_z_2 +
       Real(0.9510565162951535) * front_contacts2bn0_x_2;
-  const Real front_contacts2bn3p_x_2 = c2_2 * front_contacts2bn0_y_2 - s2_2 * front_contacts2bn2_y_2;
-  const Real front_contacts2bm_z_2 = front_contactbx3_x_2 * front_contacts2bf2_y - (front_contactbx3_y_2 *
-      q0r1_y_2 + (Real(0.3090169943749474) * front_contacts2bn0_x_2 + Real(0.9510565162951535) *
-      front_contacts2bn0_z_2));
-  const Real front_contacts2bm_x = front_contactbx3_x_2 * q0r1_z_2 - (front_contacts2bn0_x_2 +
-      front_contactbx2p_z_2 * q0r1_y_2);
-  const Real front_contacts2bm_y = front_contactbx2p_x_2 * q0r1_z_2 - (front_contacts2bn0_y_2 +
-      front_contactbx2p_z_2 * q0r1_x_2);
-  const Real front_contacts2bm_z_3 = front_contactbx2p_x_2 * q0r1_y_2 + (front_contacts2bn0_z_2 -
-      front_contactbx3_x_2 * q0r1_x_2);
-  const Real t1654 = q0r2_x_2 * t1501 * state.z[5] - (model.rear_radius * (q0r2_x_2 * state.z[4]) +
-      (state.z[2] + (model.rear_radius * q0r2_y_2 + t1491 * t1501) * state.z[3]));
-  const Real t1685 = t943 * t1654 + (rear_contacts1bn0_y_2 * state.z[6] + (rear_contacts1bn0_z_2 * state.z[5]
-      + (rear_contacts1bm_y * state.z[4] + (state.z[0] - rear_contacts1bm_x * state.z[3]))));
-  const Real t1696 = t998 * t1685 - (t954 * t1654 - (rear_contacts2bn0_y_2 * state.z[6] +
-      (rear_contacts2bn0_z_2 * state.z[5] + (rear_contacts2bm_y * state.z[4] + (state.z[1] -
-      rear_contacts2bm_x * state.z[3])))));
-  const Real t1707 = t1044 * t1696 - (t1010 * t1685 - (t964 * t1654 + ((t1472 * (q0r2_y_2 * s2_2 - c2_2 *
-      (Real(0.3090169943749474) * q0r2_z_2 - Real(0.9510565162951535) * q0r2_x_2)) - model.r_front_y *
-      front_contactbd0p_z_2) * state.z[7] - ((q0r2_y_2 * t1487 - q0r2_x_2 * t1497) * state.z[5] + ((t1487 *
-      t1491 + q0r2_x_2 * t1485) * state.z[4] + (state.z[2] + (q0r2_y_2 * t1485 + t1491 * t1497) *
-      state.z[3]))))));
-  const Real t1719 = t1083 * t1707 - (t1057 * t1696 - (t1020 * t1685 - (t974 * t1654 +
-      (front_contacts1bn3p_x_2 * state.z[8] + (front_contacts1bm_z_2 * state.z[7] - (front_contacts1bm_z_3 *
-      state.z[5] - (front_contacts1bm_y * state.z[4] + (state.z[0] + front_contacts1bm_x * state.z[3]))))))));
-  const Real t1737 = t1129 * (t1113 * t1719 - (t1098 * t1707 - (t1069 * t1696 - (t1031 * t1685 - (t985 * t1654
-      + (front_contacts2bn3p_x_2 * state.z[8] - (front_contacts2bm_z_2 * state.z[7] - (front_contacts2bm_z_3 *
-      state.z[5] - (front_contacts2bm_y * state.z[4] - (state.z[1] - front_contacts2bm_x *
-      state.z[3]))))))))));
+  const Real front_contacts2bn3p_x_2 = c2_2 * front_contacts2bn0_y_2 + s2_2 * front_contacts2bn2_y_2;
+  const Real front_contacts2bm_z_2 = Real(0.9510565162951535) * front_contacts2bn0_z_2 -
+      (Real(0.3090169943749474) * front_contacts2bn0_x_2 - (front_contactbx3_y_2 * q0r1_y_2 +
+      front_contactbx3_x_2 * front_contacts2bf2_y));
+  const Real front_contacts2bm_x = front_contacts2bn0_x_2 + (front_contactbx2p_z_2 * q0r1_y_2 -
+      front_contactbx3_x_2 * q0r1_z_2);
+  const Real front_contacts2bm_y = front_contacts2bn0_y_2 + (front_contactbx2p_z_2 * q0r1_x_2 +
+      front_contactbx2p_x_2 * q0r1_z_2);
+  const Real front_contacts2bm_z_3 = front_contacts2bn0_z_2 - (front_contactbx3_x_2 * q0r1_x_2 +
+      front_contactbx2p_x_2 * q0r1_y_2);
+  const Real t1654 = (model.rear_radius * q0r2_y_2 - t1491 * t1501) * state.z[3] + (t1501 * (q0r2_x_2 *
+      state.z[5]) - (state.z[2] - q0r2_x_2 * (model.rear_radius * state.z[4])));
+  const Real t1685 = rear_contacts1bm_y * state.z[4] + (state.z[0] - rear_contacts1bm_x * state.z[3]) - (t943
+      * t1654 + (rear_contacts1bn0_z_2 * state.z[5] - rear_contacts1bn0_y_2 * state.z[6]));
+  const Real t1696 = t998 * t1685 + (rear_contacts2bm_y * state.z[4] + (state.z[1] + rear_contacts2bm_x *
+      state.z[3]) + (t954 * t1654 - (rear_contacts2bn0_z_2 * state.z[5] - rear_contacts2bn0_y_2 *
+      state.z[6])));
+  const Real t1707 = t1010 * t1685 + ((q0r2_y_2 * t1485 - t1491 * t1497) * state.z[3] - ((t1472 * (q0r2_y_2 *
+      s2_2 + c2_2 * (Real(0.3090169943749474) * q0r2_z_2 + Real(0.9510565162951535) * q0r2_x_2)) -
+      model.r_front_y * front_contactbd0p_z_2) * state.z[7] + (state.z[2] - t964 * t1654))) - (t1044 * t1696 -
+      ((t1487 * t1491 + q0r2_x_2 * t1485) * state.z[4] + (q0r2_y_2 * t1487 + q0r2_x_2 * t1497) * state.z[5]));
+  const Real t1719 = t1083 * t1707 + (front_contacts1bn3p_x_2 * state.z[8] - (t1020 * t1685 -
+      (front_contacts1bm_x * state.z[3] - (state.z[0] + t974 * t1654))) + (t1057 * t1696 +
+      (front_contacts1bm_z_2 * state.z[7] - (front_contacts1bm_y * state.z[4] - front_contacts1bm_z_3 *
+      state.z[5]))));
+  const Real t1737 = t1129 * (t1113 * t1719 - (t1098 * t1707 + (front_contacts2bn3p_x_2 * state.z[8] - (t1031
+      * t1685 + (front_contacts2bm_x * state.z[3] + (state.z[1] + t985 * t1654))) + (t1069 * t1696 +
+      (front_contacts2bm_z_2 * state.z[7] - (front_contacts2bm_y * state.z[4] - front_contacts2bm_z_3 *
+      state.z[5]))))));
   const Real t1739 = t1112 * t1719 - t1113 * t1737;
-  const Real t1743 = t1098 * t1737 - (t1082 * t1707 - t1083 * t1739);
-  const Real t1749 = t1069 * t1737 + (t1057 * t1739 - (t1043 * t1696 + t1044 * t1743));
-  const Real t1757 = t1031 * t1737 + (t1020 * t1739 - (t1010 * t1743 + (t997 * t1685 + t998 * t1749)));
-  const Real t1767 = t985 * t1737 + (t974 * t1739 - (t964 * t1743 + (t954 * t1749 + (t942 * t1654 + t943 *
-      t1757))));
-  const Real t1845 = t491 * (t727 * t1737 + (t675 * t1739 - (t623 * t1743 - (t580 * t1749 - (t520 * t1767 +
-      t550 * t1757)))));
-  const Real t1848 = t482 * (t720 * t1737 + (t667 * t1739 - (t616 * t1743 - (t574 * t1749 - (t514 * t1767 +
-      t543 * t1757))))) - t483 * t1845;
-  const Real t1853 = t468 * t1848 - (t467 * (t712 * t1737 + (t660 * t1739 - (t609 * t1743 - (t567 * t1749 -
-      (t508 * t1767 + t537 * t1757))))) - t480 * t1845);
-  const Real t1860 = t447 * t1853 - (t462 * t1848 - (t446 * (t705 * t1737 + (t653 * t1739 - (t601 * t1743 -
-      (t561 * t1749 - (t501 * t1767 + t531 * t1757))))) - t465 * t1845));
-  const Real t1869 = t415 * t1860 - (t437 * t1853 - (t441 * t1848 - (t414 * (t694 * t1737 + (t642 * t1739 -
-      (t592 * t1743 - (t552 * t1749 - (t493 * t1767 + t522 * t1757))))) - t444 * t1845)));
-  const Real t1880 = t374 * t1869 - (t400 * t1860 - (t405 * t1853 - (t409 * t1848 - (t373 * (t683 * t1737 +
-      (t631 * t1739 - (t583 * t1743 + (rear_contacts2bn0_z * t1749 + (t94 * t1767 + rear_contacts1bn0_z *
-      t1757))))) - t412 * t1845))));
-  closed.y[0] = t1273 + state.y[0];
-  closed.y[1] = t1276 + state.y[1];
-  closed.y[2] = state.y[2] + t1281;
-  closed.y[3] = -t1377;
-  closed.y[4] = t1378;
-  closed.y[5] = -t1379;
+  const Real t1743 = t1083 * t1739 - (t1082 * t1707 - t1098 * t1737);
+  const Real t1749 = t1044 * t1743 - (t1057 * t1739 + (t1043 * t1696 + t1069 * t1737));
+  const Real t1757 = t998 * t1749 - (t1010 * t1743 - (t1020 * t1739 + (t997 * t1685 + t1031 * t1737)));
+  const Real t1767 = t943 * t1757 - (t954 * t1749 - (t964 * t1743 - (t974 * t1739 - (t942 * t1654 - t985 *
+      t1737))));
+  const Real t1845 = t491 * (t520 * t1767 - (t550 * t1757 - (t580 * t1749 - (t623 * t1743 - (t675 * t1739 +
+      t727 * t1737)))));
+  const Real t1848 = t482 * (t514 * t1767 - (t543 * t1757 - (t574 * t1749 - (t616 * t1743 - (t667 * t1739 +
+      t720 * t1737))))) - t483 * t1845;
+  const Real t1853 = t468 * t1848 - (t467 * (t508 * t1767 - (t537 * t1757 - (t567 * t1749 - (t609 * t1743 -
+      (t660 * t1739 + t712 * t1737))))) - t480 * t1845);
+  const Real t1860 = t447 * t1853 - (t462 * t1848 - (t446 * (t501 * t1767 - (t531 * t1757 - (t561 * t1749 -
+      (t601 * t1743 - (t653 * t1739 + t705 * t1737))))) - t465 * t1845));
+  const Real t1869 = t415 * t1860 - (t437 * t1853 - (t441 * t1848 - (t414 * (t493 * t1767 - (t522 * t1757 -
+      (t552 * t1749 - (t592 * t1743 - (t642 * t1739 + t694 * t1737))))) - t444 * t1845)));
+  const Real t1880 = t374 * t1869 - (t400 * t1860 - (t405 * t1853 - (t409 * t1848 - (t373 * (t94 * t1767 +
+      (rear_contacts1bn0_z * t1757 - (rear_contacts2bn0_z * t1749 + (t583 * t1743 - (t631 * t1739 + t683 *
+      t1737))))) - t412 * t1845))));
+  closed.y[0] = -(t1273 - state.y[0]);
+  closed.y[1] = -(t1276 - state.y[1]);
+  closed.y[2] = state.y[2] - t1281;
+  closed.y[3] = t1377;
+  closed.y[4] = -t1378;
+  closed.y[5] = t1379;
   closed.y[6] = -t1380;
-  closed.y[7] = t1310 + state.y[7];
-  closed.y[8] = state.y[8] + t1323;
-  closed.y[9] = -(t1330 - state.y[9]);
-  closed.z[0] = state.z[0] + t1845;
-  closed.z[1] = state.z[1] + t1848;
-  closed.z[2] = state.z[2] + t1853;
-  closed.z[3] = state.z[3] + t1860;
-  closed.z[4] = state.z[4] - t1869;
-  closed.z[5] = state.z[5] + t1880;
-  closed.z[6] = Real(8.333333333333334) * (rear_contacts1bn0_y * t1757 - rear_contacts2bn0_y * t1749) +
-      (state.z[6] + t1869);
-  closed.z[7] = t319 * t1880 - (t353 * t1869 + (t359 * t1860 + (t364 * t1853 - (t368 * t1848 + (t371 * t1845 +
-      (state.z[7] - model.c29 * (front_contacts2bm_z * t1737 - (t89 * t1743 - front_contacts1bm_z *
-      t1739))))))));
-  closed.z[8] = -(t309 * t1880 - (t313 * t1869 + (t316 * t1860 + (state.z[8] - Real(3.571428571428571) *
-      (front_contacts1bn3p_x * t1739 + front_contacts2bn3p_x * t1737)))));
+  closed.y[7] = -(t1310 - state.y[7]);
+  closed.y[8] = state.y[8] - t1323;
+  closed.y[9] = t1330 + state.y[9];
+  closed.z[0] = state.z[0] - t1845;
+  closed.z[1] = state.z[1] - t1848;
+  closed.z[2] = state.z[2] - t1853;
+  closed.z[3] = state.z[3] - t1860;
+  closed.z[4] = state.z[4] + t1869;
+  closed.z[5] = state.z[5] - t1880;
+  closed.z[6] = -(t1869 - (state.z[6] + Real(8.333333333333334) * (rear_contacts1bn0_y * t1757 +
+      rear_contacts2bn0_y * t1749)));
+  closed.z[7] = -(t319 * t1880 - (t353 * t1869 - (t359 * t1860 - (t364 * t1853 - (t368 * t1848 + (t371 * t1845
+      - (state.z[7] - model.c29 * (t89 * t1743 - (front_contacts1bm_z * t1739 - front_contacts2bm_z *
+      t1737)))))))));
+  closed.z[8] = t309 * t1880 - (t313 * t1869 + (t316 * t1860 - (state.z[8] + Real(3.571428571428571) *
+      (front_contacts1bn3p_x * t1739 + front_contacts2bn3p_x * t1737))));
   closed.regularity = -(Real(1.0) / (t1129 * (t1112 * (t1082 * (t1043 * (t942 * t997))))) *
       Real(70211.04724568786));
-  closed.opening = t1330 * t1330 + (t1323 * t1323 + (t1310 * t1310 + (t1308 * t1308 + (t1297 * t1297 + (t1288
+  closed.opening = t1330 * t1330 + (t1323 * t1323 + (t1308 * t1308 + (t1310 * t1310 + (t1297 * t1297 + (t1288
       * t1288 + (t1281 * t1281 + (t1273 * t1273 + t1276 * t1276)))))));
   state = closed;
 }
@@ -1986,18 +1993,18 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real front_contactbx2p_z = front_contactbx3_y * Real(0.3090169943749474) + model.c33;
   const Real front_contactbd2p_x = s2 * Real(0.9510565162951535);
   const Real front_contactbd2p_z = s2 * Real(0.3090169943749474);
-  const Real front_contactbd0p_z = q0r2_y * c2 - (q0r2_x * front_contactbd2p_x + q0r2_z *
-      front_contactbd2p_z);
+  const Real front_contactbd0p_z = q0r2_z * front_contactbd2p_z + (q0r2_x * front_contactbd2p_x - q0r2_y *
+      c2);
   const Real t52 = Real(1.0) - front_contactbd0p_z * front_contactbd0p_z;
   const Real front_contactup = detail::square_root(t52);
-  const Real g_front_contact = q0r2_x * front_contactbx2p_x + (state.y[2] + (q0r2_y * front_contactbx3_x +
-      (q0r2_z * front_contactbx2p_z + front_contactup * model.front_radius)));
+  const Real g_front_contact = front_contactup * model.front_radius + (q0r2_z * front_contactbx2p_z + (q0r2_x
+      * front_contactbx2p_x + (state.y[2] + q0r2_y * front_contactbx3_x)));
   const Real t64 = (front_contactbd0p_z + front_contactbd0p_z) / front_contactup * model.c30;
-  const Real t75 = front_contactbx2p_z + front_contactbd2p_z * t64;
-  const Real t77 = front_contactbx2p_x + front_contactbd2p_x * t64;
+  const Real t75 = front_contactbx2p_z - front_contactbd2p_z * t64;
+  const Real t77 = front_contactbx2p_x - front_contactbd2p_x * t64;
   const Real t83 = (q011 + q022) * Real(0.5) - (state.y[6] * state.y[6] + state.y[3] * state.y[3]);
   const Real q012 = state.y[4] * q0d2;
-  const Real t90 = front_contactbx3_x - c2 * t64;
+  const Real t90 = front_contactbx3_x + c2 * t64;
   const Real t95 = (q0r2_y + q0r2_y) / rear_contactup * model.c31;
   const Real q033 = state.y[6] * q0d3;
   const Real q003 = q0d3 * state.y[3];
@@ -2006,22 +2013,22 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real q0r1_x = q012 + q003;
   const Real q0r1_y = t14 + q033;
   const Real q0r1_z = q023 - q001;
-  const Real t112 = model.rear_radius * q0r1_y;
-  const Real rear_contactc_y = q0r2_y * t112 / rear_contactup;
+  const Real t111 = model.rear_radius * q0r1_y;
+  const Real rear_contactc_y = q0r2_y * t111 / rear_contactup;
   const Real rear_contactc_z = model.rear_radius * (t18 / rear_contactup);
   const Real rear_contacts1bn0_y = q0r1_y * rear_contactc_z + q0r2_y * rear_contactc_y;
   const Real rear_contacts1bn0_z = q0r1_z * rear_contactc_z + q0r2_z * rear_contactc_y;
-  const Real t125 = model.rear_radius * q0r0_y;
-  const Real rear_contacts1bm_x = q0r2_x * rear_contactc_y - (q0r1_x * rear_contactc_z + t125);
+  const Real t124 = model.rear_radius * q0r0_y;
+  const Real rear_contacts1bm_x = q0r1_x * rear_contactc_z - (q0r2_x * rear_contactc_y - t124);
   const Real rear_contacts1bm_y = rear_contacts1bn0_y - model.rear_radius * q0r0_x;
   const Real q0r0_z = q013 + q002;
-  const Real rear_contactc_x = q0r2_y * t125 / rear_contactup;
+  const Real rear_contactc_x = q0r2_y * t124 / rear_contactup;
   const Real rear_contacts2bn0_y = q0r0_y * rear_contactc_z + q0r2_y * rear_contactc_x;
   const Real rear_contacts2bn0_z = rear_contactc_z * q0r0_z - q0r2_z * rear_contactc_x;
-  const Real rear_contacts2bm_x = q0r0_x * rear_contactc_z - (t112 + q0r2_x * rear_contactc_x);
+  const Real rear_contacts2bm_x = q0r0_x * rear_contactc_z - (t111 + q0r2_x * rear_contactc_x);
   const Real rear_contacts2bm_y = rear_contacts2bn0_y + model.rear_radius * q0r1_x;
-  const Real front_contactbd0p_y = c2 * q0r1_y + (front_contactbd2p_x * q0r1_x - front_contactbd2p_z *
-      q0r1_z);
+  const Real front_contactbd0p_y = front_contactbd2p_z * q0r1_z - (front_contactbd2p_x * q0r1_x + c2 *
+      q0r1_y);
   const Real front_contactc_y = model.front_radius * (front_contactbd0p_z * front_contactbd0p_y /
       front_contactup);
   const Real front_contactc_z = model.front_radius * (t52 / front_contactup);
@@ -2034,54 +2041,53 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real front_contacts1bn3p_x = c2 * front_contacts1bn0_y - s2 * front_contacts1bn2_y;
   const Real front_contacts1bm_z = Real(0.9510565162951535) * front_contacts1bn0_z + (Real(0.3090169943749474)
       * front_contacts1bn0_x + (front_contactbx3_y * q0r0_y + front_contactbx3_x * front_contacts1bf2_y));
-  const Real front_contacts1bm_x = front_contactbx2p_z * q0r0_y + (front_contacts1bn0_x + front_contactbx3_x *
+  const Real front_contacts1bm_x = front_contacts1bn0_x + (front_contactbx2p_z * q0r0_y + front_contactbx3_x *
       q0r0_z);
-  const Real front_contacts1bm_y = front_contactbx2p_z * q0r0_x - (front_contacts1bn0_y + front_contactbx2p_x
+  const Real front_contacts1bm_y = front_contacts1bn0_y - (front_contactbx2p_z * q0r0_x - front_contactbx2p_x
       * q0r0_z);
-  const Real front_contacts1bm_z_2 = front_contactbx3_x * q0r0_x + (front_contacts1bn0_z + front_contactbx2p_x
+  const Real front_contacts1bm_z_2 = front_contacts1bn0_z + (front_contactbx3_x * q0r0_x + front_contactbx2p_x
       * q0r0_y);
   const Real front_contactbd0p_x = c2 * q0r0_y + s2 * front_contacts1bf2_y;
   const Real front_contactc_x = model.front_radius * (front_contactbd0p_z * front_contactbd0p_x /
       front_contactup);
-  const Real front_contacts2bn0_x = q0r0_x * front_contactc_z - q0r2_x * front_contactc_x;
-  const Real front_contacts2bn0_y = q0r0_y * front_contactc_z + q0r2_y * front_contactc_x;
-  const Real front_contacts2bn0_z = q0r0_z * front_contactc_z - q0r2_z * front_contactc_x;
+  const Real front_contacts2bn0_x = q0r0_x * front_contactc_z + q0r2_x * front_contactc_x;
+  const Real front_contacts2bn0_y = q0r0_y * front_contactc_z - q0r2_y * front_contactc_x;
+  const Real front_contacts2bn0_z = q0r0_z * front_contactc_z + q0r2_z * front_contactc_x;
   const Real front_contacts2bn2_y = Real(0.3090169943749474) * front_contacts2bn0_z + Real(0.9510565162951535)
       * front_contacts2bn0_x;
   const Real front_contacts2bn3p_x = c2 * front_contacts2bn0_y + s2 * front_contacts2bn2_y;
   const Real front_contacts2bm_z = Real(0.9510565162951535) * front_contacts2bn0_z - (Real(0.3090169943749474)
-      * front_contacts2bn0_x - model.r_front_y * front_contactbd0p_y);
-  const Real front_contacts2bm_x = front_contactbx2p_z * q0r1_y - (front_contacts2bn0_x + front_contactbx3_x *
+      * front_contacts2bn0_x + model.r_front_y * front_contactbd0p_y);
+  const Real front_contacts2bm_x = front_contacts2bn0_x - (front_contactbx2p_z * q0r1_y - front_contactbx3_x *
       q0r1_z);
-  const Real front_contacts2bm_y = front_contactbx2p_z * q0r1_x + (front_contacts2bn0_y + front_contactbx2p_x
+  const Real front_contacts2bm_y = front_contacts2bn0_y + (front_contactbx2p_z * q0r1_x + front_contactbx2p_x
       * q0r1_z);
-  const Real front_contacts2bm_z_2 = front_contactbx3_x * q0r1_x + (front_contacts2bn0_z + front_contactbx2p_x
+  const Real front_contacts2bm_z_2 = front_contacts2bn0_z + (front_contactbx3_x * q0r1_x + front_contactbx2p_x
       * q0r1_y);
-  const Real rear_contacts0 = rear_contacts1bm_x * state.z[3] - (state.z[0] - (rear_contacts1bm_y * state.z[4]
-      - (rear_contacts1bn0_z * state.z[5] - rear_contacts1bn0_y * state.z[6])));
-  const Real rear_contacts1 = rear_contacts2bm_x * state.z[3] + (state.z[1] - (rear_contacts2bm_y * state.z[4]
-      + (rear_contacts2bn0_z * state.z[5] + rear_contacts2bn0_y * state.z[6])));
-  const Real front_contacts0 = front_contacts1bm_x * state.z[3] + (state.z[0] + (front_contacts1bm_y *
-      state.z[4] + (front_contacts1bm_z_2 * state.z[5] + (front_contacts1bm_z * state.z[7] -
-      front_contacts1bn3p_x * state.z[8]))));
-  const Real front_contacts1 = front_contacts2bm_x * state.z[3] - (state.z[1] - (front_contacts2bm_y *
-      state.z[4] + (front_contacts2bm_z_2 * state.z[5] + (front_contacts2bm_z * state.z[7] +
-      front_contacts2bn3p_x * state.z[8]))));
+  const Real rear_contacts0 = rear_contacts1bn0_z * state.z[5] - rear_contacts1bn0_y * state.z[6] -
+      (rear_contacts1bm_y * state.z[4] - (state.z[0] + rear_contacts1bm_x * state.z[3]));
+  const Real rear_contacts1 = rear_contacts2bn0_z * state.z[5] + rear_contacts2bn0_y * state.z[6] +
+      (rear_contacts2bm_y * state.z[4] - (state.z[1] + rear_contacts2bm_x * state.z[3]));
+  const Real front_contacts0 = front_contacts1bn3p_x * state.z[8] - (front_contacts1bm_z * state.z[7] +
+      (state.z[0] + front_contacts1bm_x * state.z[3] - (front_contacts1bm_y * state.z[4] -
+      front_contacts1bm_z_2 * state.z[5])));
+  const Real front_contacts1 = front_contacts2bn3p_x * state.z[8] + (front_contacts2bm_z * state.z[7] -
+      (state.z[1] + front_contacts2bm_x * state.z[3] - (front_contacts2bm_y * state.z[4] +
+      front_contacts2bm_z_2 * state.z[5])));
   g[0] = -g_rear_contact;
   g[1] = Real(0.0);
   g[2] = Real(0.0);
   g[3] = -g_front_contact;
   g[4] = Real(0.0);
   g[5] = Real(0.0);
-  g_rate[0] = -((q0r2_y * model.rear_radius + t83 * t95) * state.z[3] + (state.z[2] - (model.rear_radius *
-      (q0r2_x * state.z[4]) - q0r2_x * t95 * state.z[5])));
-  g_rate[1] = -rear_contacts0;
-  g_rate[2] = -rear_contacts1;
-  g_rate[3] = -((q0r2_y * t75 - t83 * t90) * state.z[3] + (state.z[2] + ((t77 * t83 - q0r2_x * t75) *
-      state.z[4] + ((q0r2_y * t77 - q0r2_x * t90) * state.z[5] + (t64 * (q0r2_y * s2 + c2 * (q0r2_z *
+  g_rate[0] = -((q0r2_y * model.rear_radius + t83 * t95) * state.z[3] + (t95 * (q0r2_x * state.z[5]) +
+      (state.z[2] - q0r2_x * (model.rear_radius * state.z[4]))));
+  g_rate[1] = rear_contacts0;
+  g_rate[2] = rear_contacts1;
+  g_rate[3] = -((q0r2_y * t75 - t83 * t90) * state.z[3] + (state.z[2] - (t64 * (q0r2_y * s2 + c2 * (q0r2_z *
       Real(0.3090169943749474) + q0r2_x * Real(0.9510565162951535))) + model.r_front_y * front_contactbd0p_z)
-      * state.z[7]))));
-  g_rate[4] = front_contacts0;
+      * state.z[7]) + ((t77 * t83 - q0r2_x * t75) * state.z[4] + (q0r2_y * t77 - q0r2_x * t90) * state.z[5]));
+  g_rate[4] = -front_contacts0;
   g_rate[5] = front_contacts1;
 }
 
@@ -2128,7 +2134,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t63 = q0r2_y * s2 + c2 * (q0r2_z * Real(0.3090169943749474) + q0r2_x * Real(0.9510565162951535));
   const Real t70 = front_contactbx2p_z - front_contactbd2p_z * t57;
   const Real t72 = front_contactbx2p_x - front_contactbd2p_x * t57;
-  const Real t76 = q0d2 * t49 + (q0d1 * t48 - (q0d3 * t50 + state.y[3] * state.y[3]));
+  const Real t76 = q0d3 * t50 + state.y[3] * state.y[3] - (q0d1 * t48 + q0d2 * t49);
   const Real q012 = q0d1 * state.y[5];
   const Real t85 = front_contactbx3_x + c2 * t57;
   const Real t87 = t57 * t63 + model.r_front_y * front_contactbd0p_z;
@@ -2137,7 +2143,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t91 = q0r2_x * t89;
   const Real q033 = state.y[6] * q0d3;
   const Real q003 = q0d3 * state.y[3];
-  const Real q0r0_x = Real(1.0) - (q022 + q033);
+  const Real q0r0_x = q033 + (q022 - Real(1.0));
   const Real q0r0_y = q012 - q003;
   const Real q0r1_x = q012 + q003;
   const Real q0r1_y = t14 + q033;
@@ -2157,26 +2163,26 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real front_contactc_y = t57 * front_contactbd0p_y;
   const Real t129 = t44 / front_contactup;
   const Real front_contactc_z = model.front_radius * t129;
-  const Real front_contacts1bf2_y = Real(0.3090169943749474) * q0r0_z - Real(0.9510565162951535) * q0r0_x;
+  const Real front_contacts1bf2_y = Real(0.3090169943749474) * q0r0_z + Real(0.9510565162951535) * q0r0_x;
   const Real front_contacts1bn0_x = q0r1_x * front_contactc_z - q0r2_x * front_contactc_y;
   const Real front_contacts1bn0_y = q0r1_y * front_contactc_z + q0r2_y * front_contactc_y;
   const Real front_contacts1bn0_z = q0r1_z * front_contactc_z + q0r2_z * front_contactc_y;
   const Real front_contacts1bn2_y = Real(0.3090169943749474) * front_contacts1bn0_z - Real(0.9510565162951535)
       * front_contacts1bn0_x;
   const Real front_contacts1bn3p_x = c2 * front_contacts1bn0_y - s2 * front_contacts1bn2_y;
-  const Real front_contacts1bm_z = front_contactbx3_x * front_contacts1bf2_y + (front_contactbx3_y * q0r0_y +
-      (Real(0.3090169943749474) * front_contacts1bn0_x + Real(0.9510565162951535) * front_contacts1bn0_z));
+  const Real front_contacts1bm_z = Real(0.9510565162951535) * front_contacts1bn0_z + (Real(0.3090169943749474)
+      * front_contacts1bn0_x + (front_contactbx3_y * q0r0_y + front_contactbx3_x * front_contacts1bf2_y));
   const Real front_contactbd0p_x = c2 * q0r0_y + s2 * front_contacts1bf2_y;
   const Real front_contactc_x = t57 * front_contactbd0p_x;
   const Real front_contacts2bf2_y = Real(0.3090169943749474) * q0r1_z - Real(0.9510565162951535) * q0r1_x;
-  const Real front_contacts2bn0_x = q0r0_x * front_contactc_z - q0r2_x * front_contactc_x;
+  const Real front_contacts2bn0_x = q0r0_x * front_contactc_z + q0r2_x * front_contactc_x;
   const Real front_contacts2bn0_y = q0r0_y * front_contactc_z - q0r2_y * front_contactc_x;
   const Real front_contacts2bn0_z = q0r0_z * front_contactc_z + q0r2_z * front_contactc_x;
-  const Real front_contacts2bn2_y = Real(0.3090169943749474) * front_contacts2bn0_z - Real(0.9510565162951535)
+  const Real front_contacts2bn2_y = Real(0.3090169943749474) * front_contacts2bn0_z + Real(0.9510565162951535)
       * front_contacts2bn0_x;
   const Real front_contacts2bn3p_x = c2 * front_contacts2bn0_y + s2 * front_contacts2bn2_y;
-  const Real front_contacts2bm_z = model.r_front_y * front_contactbd0p_y - (Real(0.3090169943749474) *
-      front_contacts2bn0_x + Real(0.9510565162951535) * front_contacts2bn0_z);
+  const Real front_contacts2bm_z = Real(0.9510565162951535) * front_contacts2bn0_z - (Real(0.3090169943749474)
+      * front_contacts2bn0_x + model.r_front_y * front_contactbd0p_y);
   const Real S2b_t = s2 * model.S2b_d;
   const Real S2b_xx = s2 * S2b_t - Real(0.003500000000000002);
   const Real S2b_xy = c2 * S2b_t;
@@ -2195,23 +2201,23 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real h2c_x = h2at2_x + model.c6;
   const Real h2c_z = h2at2_z + model.c7;
   const Real t237 = h2b_x * model.r_steer_x;
-  const Real S2c_xy = t237 + (Real(0.3090169943749474) * S2b_xz - Real(0.9510565162951535) * S2b_xy);
+  const Real S2c_xy = Real(0.9510565162951535) * S2b_xy - (Real(0.3090169943749474) * S2b_xz + t237);
   const Real t248 = h2at2_z - model.h_z;
-  const Real S2c_xz = Real(0.3090169943749474) * (S2at2r0_y - model.SR_z) + ((h2at2_x + model.c9) *
-      model.r_steer_z - (Real(0.9510565162951535) * S2at2r0_z - model.r_steer_x * t248)) +
-      Real(25.349999999999998);
+  const Real S2c_xz = Real(0.3090169943749474) * (S2at2r0_y - model.SR_z) - (Real(0.9510565162951535) *
+      S2at2r0_z - Real(25.349999999999998) - ((h2at2_x + model.c9) * model.r_steer_z + model.r_steer_x *
+      t248));
   const Real S2c_yy = S2b_xx - Real(0.5002999999999995);
   const Real t257 = h2b_x * model.r_steer_z;
-  const Real S2c_yz = t257 - (Real(0.3090169943749474) * S2b_xy + Real(0.9510565162951535) * S2b_xz);
-  const Real S1c_xx = (h2at2_x + model.h_x) * model.c14 + (Real(0.9510565162951535) * S2at2r0_y +
-      Real(0.3090169943749474) * (S2at2r0_z + model.SR_x)) + model.c16;
-  const Real S1c_zz = t248 * model.c17 - (Real(0.3090169943749474) * S2at2r2_y + Real(0.9510565162951535) *
-      (t219 - model.c18)) + model.c19;
+  const Real S2c_yz = Real(0.3090169943749474) * S2b_xy + (Real(0.9510565162951535) * S2b_xz - t257);
+  const Real S1c_xx = Real(0.9510565162951535) * S2at2r0_y + (Real(0.3090169943749474) * (S2at2r0_z +
+      model.SR_x) + ((h2at2_x + model.h_x) * model.c14 + model.c16));
+  const Real S1c_zz = Real(0.3090169943749474) * S2at2r2_y + (Real(0.9510565162951535) * (t219 - model.c18) -
+      (t248 * model.c17 + model.c19));
   const Real p_7_2l_x = h2b_y * model.r_steer_z;
   const Real p_7_2l_z = h2b_y * model.r_steer_x;
-  const Real p_7_2n_x = t222 - p_7_2l_x + model.c20;
+  const Real p_7_2n_x = p_7_2l_x - (t222 + model.c20);
   const Real p_7_2n_y = t257 * Real(0.9510565162951535) - (S2b_xz + t237 * Real(0.3090169943749474));
-  const Real p_7_2n_z = t219 + p_7_2l_z - model.c21;
+  const Real p_7_2n_z = p_7_2l_z + (t219 - model.c21);
   const Real p_7_0f_x = front_contactbd0p_x * model.front_h_y;
   const Real p_7_0f_y = front_contactbd0p_y * model.front_h_y;
   const Real p_7_0f_z = front_contactbd0p_z * model.front_h_y;
@@ -2223,43 +2229,44 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t325 = p_8_3N_x * Real(3.571428571428571);
   const Real t328 = p_8_2n_x * Real(3.571428571428571);
   const Real t331 = p_7_2n_z * model.c29;
-  const Real t338 = p_7_2n_y * t331 + (S2c_yz - p_8_3N_x * t321);
-  const Real t341 = p_7_2n_x * t331 - (S2c_xz + p_8_2n_x * t321);
+  const Real t338 = p_7_2n_y * t331 - (S2c_yz + p_8_3N_x * t321);
+  const Real t341 = S2c_xz + (p_8_2n_x * t321 + p_7_2n_x * t331);
   const Real t344 = p_7_0f_z * t331 + (q0r2_x * h2b_x - q0r2_y * h2c_x);
   const Real t347 = p_7_0f_y * t331 - (q0r1_x * h2b_x + q0r1_y * h2c_x);
-  const Real t350 = p_7_0f_x * t331 - (q0r0_x * h2b_x - q0r0_y * h2c_x);
+  const Real t350 = p_7_0f_x * t331 + (q0r0_x * h2b_x + q0r0_y * h2c_x);
   const Real t351 = p_7_2n_y * model.c29;
   const Real t357 = p_7_2n_x * model.c29;
   const Real t362 = p_7_0f_z * model.c29;
   const Real t366 = p_7_0f_y * model.c29;
   const Real t369 = p_7_0f_x * model.c29;
-  const Real t371 = Real(1.0) / (p_7_2n_z * t331 - (p_8_2n_z * t321 + (S2c_yy - S1c_xx)));
+  const Real t371 = Real(1.0) / (S1c_xx + (p_7_2n_z * t331 - (S2c_yy + p_8_2n_z * t321)));
   const Real t372 = t338 * t371;
-  const Real t383 = t341 * t372 - (p_7_2n_x * t351 + (S2c_xy - p_8_2n_x * t325));
+  const Real t383 = t341 * t372 - (p_7_2n_x * t351 + (S2c_xy + p_8_2n_x * t325));
   const Real t387 = t344 * t372 - (p_7_0f_z * t351 + (q0r2_x * h2c_z - q0r2_z * h2c_x));
   const Real t391 = t347 * t372 - (p_7_0f_y * t351 - (q0r1_x * h2c_z + q0r1_z * h2c_x));
-  const Real t395 = t350 * t372 - (p_7_0f_x * t351 - (q0r0_x * h2c_z + q0r0_z * h2c_x));
+  const Real t395 = t350 * t372 - (p_7_0f_x * t351 + (q0r0_x * h2c_z - q0r0_z * h2c_x));
   const Real t396 = t341 * t371;
   const Real t401 = t344 * t371;
   const Real t405 = t347 * t371;
   const Real t408 = t350 * t371;
-  const Real t410 = Real(1.0) / (t338 * t372 - (p_7_2n_y * t351 - (p_8_3N_x * t325 - (S1c_xx + S1c_zz))) +
-      Real(0.12));
+  const Real t410 = Real(1.0) / (t338 * t372 - (p_7_2n_y * t351 - (p_8_3N_x * t325 + Real(0.12)) + (S1c_xx -
+      S1c_zz)));
   const Real t411 = t383 * t410;
-  const Real t422 = t387 * t411 - (t344 * t396 - (p_7_0f_z * t357 + (q0r2_y * h2c_z - q0r2_z * h2b_x)));
-  const Real t427 = t391 * t411 - (t347 * t396 - (p_7_0f_y * t357 + (q0r1_y * h2c_z - q0r1_z * h2b_x)));
-  const Real t432 = t395 * t411 - (t350 * t396 - (p_7_0f_x * t357 - (q0r0_y * h2c_z + q0r0_z * h2b_x)));
+  const Real t422 = t387 * t411 - (t344 * t396 - (p_7_0f_z * t357 - (q0r2_y * h2c_z - q0r2_z * h2b_x)));
+  const Real t427 = t391 * t411 - (t347 * t396 - (p_7_0f_y * t357 - (q0r1_y * h2c_z - q0r1_z * h2b_x)));
+  const Real t432 = t395 * t411 - (t350 * t396 - (p_7_0f_x * t357 + (q0r0_y * h2c_z + q0r0_z * h2b_x)));
   const Real t433 = t387 * t410;
   const Real t437 = t391 * t410;
   const Real t440 = t395 * t410;
-  const Real t442 = Real(1.0) / (t383 * t411 - (t341 * t396 - (p_7_2n_x * t357 - (p_8_2n_x * t328 + (S2c_yy -
-      S1c_zz)))));
+  const Real t442 = Real(1.0) / (t383 * t411 - (t341 * t396 + (S1c_zz - (p_7_2n_x * t357 - (S2c_yy + p_8_2n_x
+      * t328)))));
   const Real t443 = t422 * t442;
   const Real t453 = t427 * t443 - (t391 * t433 + (p_7_0f_y * t362 - t347 * t401));
   const Real t457 = t432 * t443 - (t395 * t433 + (p_7_0f_x * t362 - t350 * t401));
   const Real t458 = t427 * t442;
   const Real t461 = t432 * t442;
-  const Real t463 = Real(1.0) / (t422 * t443 - (t387 * t433 + (p_7_0f_z * t362 - t344 * t401)) - Real(94.0));
+  const Real t463 = Real(1.0) / (t422 * t443 - (t387 * t433 - (t344 * t401 - (p_7_0f_z * t362 +
+      Real(94.0)))));
   const Real t464 = t453 * t463;
   const Real t475 = t457 * t464 - (t432 * t458 - (t395 * t437 + (p_7_0f_x * t366 - t350 * t405)));
   const Real t476 = t457 * t463;
@@ -2269,49 +2276,49 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t487 = Real(1.0) / (t475 * t479 - (t457 * t476 - (t432 * t461 - (t395 * t440 - (t350 * t408 -
       (p_7_0f_x * t369 + Real(94.0)))))));
   const Real t489 = q0r2_x * model.rear_radius + t91 * t372;
-  const Real t497 = t411 * t489 - (t91 * t396 + (q0r2_y * model.rear_radius + t76 * t89));
+  const Real t497 = t411 * t489 - (t91 * t396 - (q0r2_y * model.rear_radius - t76 * t89));
   const Real t504 = t443 * t497 - (t433 * t489 - (Real(1.0) + t91 * t401));
   const Real t510 = t464 * t504 - (t458 * t497 + (t91 * t405 - t437 * t489));
   const Real t516 = t479 * t510 - (t476 * t504 - (t461 * t497 + (t91 * t408 - t440 * t489)));
-  const Real t518 = model.rear_radius * q0r0_x + rear_contacts1bn0_z * t372;
-  const Real t527 = t411 * t518 - (rear_contacts1bn0_z * t396 + (t112 + (q0r1_x * rear_contactc_z - q0r2_x *
-      rear_contactc_y)));
-  const Real t533 = t443 * t527 + (rear_contacts1bn0_z * t401 - t433 * t518);
-  const Real t539 = t464 * t533 - (t458 * t527 + (rear_contacts1bn0_z * t405 - t437 * t518));
-  const Real t546 = t479 * t539 - (t476 * t533 - (t461 * t527 - (t440 * t518 + (Real(1.0) -
+  const Real t518 = model.rear_radius * q0r0_x - rear_contacts1bn0_z * t372;
+  const Real t527 = t411 * t518 + (rear_contacts1bn0_z * t396 + (q0r2_x * rear_contactc_y - (q0r1_x *
+      rear_contactc_z + t112)));
+  const Real t533 = t443 * t527 - (rear_contacts1bn0_z * t401 + t433 * t518);
+  const Real t539 = t464 * t533 - (t458 * t527 - (rear_contacts1bn0_z * t405 + t437 * t518));
+  const Real t546 = t479 * t539 - (t476 * t533 - (t461 * t527 - (t440 * t518 - (Real(1.0) -
       rear_contacts1bn0_z * t408))));
   const Real t548 = model.rear_radius * q0r1_x - rear_contacts2bn0_z * t372;
-  const Real t557 = t411 * t548 + (rear_contacts2bn0_z * t396 + (q0r2_x * rear_contactc_x + (t102 + q0r0_x *
+  const Real t557 = t411 * t548 + (rear_contacts2bn0_z * t396 - (q0r2_x * rear_contactc_x + (t102 - q0r0_x *
       rear_contactc_z)));
   const Real t563 = t443 * t557 - (rear_contacts2bn0_z * t401 + t433 * t548);
   const Real t570 = t464 * t563 - (t458 * t557 - (t437 * t548 + (Real(1.0) + rear_contacts2bn0_z * t405)));
   const Real t576 = t479 * t570 - (t476 * t563 - (t461 * t557 - (rear_contacts2bn0_z * t408 + t440 * t548)));
   const Real t579 = t87 * t331 - (q0r2_y * t72 - q0r2_x * t85);
-  const Real t588 = t372 * t579 - (t87 * t351 - (t72 * t76 - q0r2_x * t70));
-  const Real t597 = t411 * t588 - (t396 * t579 - (t87 * t357 + (q0r2_y * t70 - t76 * t85)));
+  const Real t588 = t372 * t579 - (t87 * t351 + (t72 * t76 + q0r2_x * t70));
+  const Real t597 = t411 * t588 - (t396 * t579 - (t87 * t357 - (q0r2_y * t70 + t76 * t85)));
   const Real t605 = t443 * t597 - (t433 * t588 - (t401 * t579 - (Real(1.0) + t87 * t362)));
   const Real t612 = t464 * t605 - (t458 * t597 - (t437 * t588 + (t87 * t366 - t405 * t579)));
   const Real t619 = t479 * t612 - (t476 * t605 - (t461 * t597 - (t440 * t588 + (t87 * t369 - t408 * t579))));
-  const Real t627 = front_contacts1bm_z * t331 + (front_contacts1bn3p_x * t321 + (front_contactbx2p_x * q0r0_y
-      + (front_contacts1bn0_z - front_contactbx3_x * q0r0_x)));
-  const Real t638 = t372 * t627 - (front_contacts1bm_z * t351 + (front_contacts1bn3p_x * t325 -
-      (front_contactbx2p_x * q0r0_z + (front_contacts1bn0_y + front_contactbx2p_z * q0r0_x))));
-  const Real t649 = t411 * t638 - (t396 * t627 - (front_contacts1bm_z * t357 + (front_contacts1bn3p_x * t328 -
-      (front_contactbx3_x * q0r0_z + (front_contacts1bn0_x + front_contactbx2p_z * q0r0_y)))));
+  const Real t627 = front_contacts1bn3p_x * t321 + (front_contacts1bm_z * t331 + (front_contacts1bn0_z +
+      (front_contactbx3_x * q0r0_x + front_contactbx2p_x * q0r0_y)));
+  const Real t638 = t372 * t627 - (front_contacts1bn3p_x * t325 + (front_contacts1bm_z * t351 -
+      (front_contacts1bn0_y - (front_contactbx2p_z * q0r0_x - front_contactbx2p_x * q0r0_z))));
+  const Real t649 = t411 * t638 - (t396 * t627 + (front_contacts1bn3p_x * t328 - (front_contacts1bm_z * t357 +
+      (front_contacts1bn0_x + (front_contactbx2p_z * q0r0_y + front_contactbx3_x * q0r0_z)))));
   const Real t656 = t443 * t649 - (t433 * t638 + (front_contacts1bm_z * t362 - t401 * t627));
   const Real t663 = t464 * t656 - (t458 * t649 - (t437 * t638 + (front_contacts1bm_z * t366 - t405 * t627)));
   const Real t671 = t479 * t663 - (t476 * t656 - (t461 * t649 - (t440 * t638 - (t408 * t627 - (Real(1.0) +
       front_contacts1bm_z * t369)))));
-  const Real t679 = front_contacts2bm_z * t331 + (front_contacts2bn3p_x * t321 - (front_contactbx2p_x * q0r1_y
-      + (front_contacts2bn0_z + front_contactbx3_x * q0r1_x)));
-  const Real t690 = t372 * t679 - (front_contacts2bm_z * t351 + (front_contacts2bn3p_x * t325 -
-      (front_contactbx2p_x * q0r1_z + (front_contacts2bn0_y + front_contactbx2p_z * q0r1_x))));
-  const Real t701 = t411 * t690 - (t396 * t679 - (front_contacts2bm_z * t357 + (front_contacts2bn3p_x * t328 -
-      (front_contactbx3_x * q0r1_z - (front_contacts2bn0_x + front_contactbx2p_z * q0r1_y)))));
-  const Real t708 = t443 * t701 - (t433 * t690 + (front_contacts2bm_z * t362 - t401 * t679));
-  const Real t716 = t464 * t708 - (t458 * t701 - (t437 * t690 - (t405 * t679 - (Real(1.0) +
+  const Real t679 = front_contacts2bn3p_x * t321 - (front_contacts2bm_z * t331 + (front_contacts2bn0_z +
+      (front_contactbx3_x * q0r1_x + front_contactbx2p_x * q0r1_y)));
+  const Real t690 = t372 * t679 - (front_contacts2bn3p_x * t325 - (front_contacts2bm_z * t351 +
+      (front_contacts2bn0_y + (front_contactbx2p_z * q0r1_x + front_contactbx2p_x * q0r1_z))));
+  const Real t701 = t411 * t690 - (t396 * t679 + (front_contacts2bn3p_x * t328 + (front_contacts2bm_z * t357 -
+      (front_contacts2bn0_x - (front_contactbx2p_z * q0r1_y - front_contactbx3_x * q0r1_z)))));
+  const Real t708 = t443 * t701 - (t433 * t690 - (front_contacts2bm_z * t362 + t401 * t679));
+  const Real t716 = t464 * t708 - (t458 * t701 - (t437 * t690 - (t405 * t679 - (Real(1.0) -
       front_contacts2bm_z * t366))));
-  const Real t723 = t479 * t716 - (t476 * t708 - (t461 * t701 - (t440 * t690 + (front_contacts2bm_z * t369 -
+  const Real t723 = t479 * t716 - (t476 * t708 - (t461 * t701 - (t440 * t690 - (front_contacts2bm_z * t369 +
       t408 * t679))));
   const Real t736 = t487 * t546;
   const Real t737 = t478 * t539;
@@ -2319,7 +2326,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t739 = t442 * t527;
   const Real t740 = t410 * t518;
   const Real t741 = rear_contacts1bn0_z * t371;
-  const Real t752 = t91 * t741 - (t489 * t740 - (t497 * t739 - (t504 * t738 + (t516 * t736 - t510 * t737))));
+  const Real t752 = t516 * t736 - (t510 * t737 - (t504 * t738 - (t497 * t739 - (t489 * t740 + t91 * t741))));
   const Real t762 = t487 * t576;
   const Real t763 = t478 * t570;
   const Real t764 = t463 * t563;
@@ -2327,14 +2334,14 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t766 = t410 * t548;
   const Real t767 = rear_contacts2bn0_z * t371;
   const Real t768 = rear_contacts2bn0_y * Real(8.333333333333334);
-  const Real t779 = t91 * t767 + (t489 * t766 - (t497 * t765 - (t504 * t764 + (t516 * t762 - t510 * t763))));
+  const Real t779 = t516 * t762 - (t510 * t763 - (t504 * t764 - (t497 * t765 - (t489 * t766 + t91 * t767))));
   const Real t794 = t487 * t619;
   const Real t795 = t478 * t612;
   const Real t796 = t463 * t605;
   const Real t797 = t442 * t597;
   const Real t798 = t410 * t588;
   const Real t799 = t371 * t579;
-  const Real t810 = t91 * t799 - (t489 * t798 - (t497 * t797 - (t504 * t796 + (t516 * t794 - t510 * t795))));
+  const Real t810 = t516 * t794 - (t510 * t795 - (t504 * t796 - (t497 * t797 - (t489 * t798 - t91 * t799))));
   const Real t831 = t487 * t671;
   const Real t832 = t478 * t663;
   const Real t833 = t463 * t656;
@@ -2342,7 +2349,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t835 = t410 * t638;
   const Real t836 = t371 * t627;
   const Real t837 = front_contacts1bm_z * model.c29;
-  const Real t848 = t91 * t836 - (t489 * t835 - (t497 * t834 - (t504 * t833 + (t516 * t831 - t510 * t832))));
+  const Real t848 = t516 * t831 - (t510 * t832 - (t504 * t833 - (t497 * t834 - (t489 * t835 - t91 * t836))));
   const Real t877 = t487 * t723;
   const Real t878 = t478 * t716;
   const Real t879 = t463 * t708;
@@ -2351,61 +2358,61 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t882 = t371 * t679;
   const Real t883 = front_contacts2bm_z * model.c29;
   const Real t884 = front_contacts2bn3p_x * Real(3.571428571428571);
-  const Real t895 = t91 * t882 - (t489 * t881 - (t497 * t880 - (t504 * t879 + (t516 * t877 - t510 * t878))));
-  const Real t938 = Real(1.0) / (t91 * (t91 * t371) - (t489 * (t410 * t489) - (t497 * (t442 * t497) - (t504 *
-      (t463 * t504) + (t516 * (t487 * t516) - t510 * (t478 * t510))))) + Real(1.8087085566416913e-12));
+  const Real t895 = t516 * t877 - (t510 * t878 - (t504 * t879 - (t497 * t880 - (t489 * t881 - t91 * t882))));
+  const Real t938 = Real(1.0) / (t487 * (t516 * t516) - (t478 * (t510 * t510) - (t463 * (t504 * t504) - (t442
+      * (t497 * t497) - (t410 * (t489 * t489) - (t371 * (t91 * t91) + Real(1.8087085566416913e-12)))))));
   const Real t939 = t752 * t938;
   const Real t950 = t779 * t938;
-  const Real t958 = t752 * t950 + (rear_contacts1bn0_y * t768 - (rear_contacts1bn0_z * t767 + (t518 * t766 -
-      (t527 * t765 - (t533 * t764 + (t546 * t762 - t539 * t763))))));
+  const Real t958 = t752 * t950 - (t546 * t762 - (t539 * t763 - (t533 * t764 - (t527 * t765 - (t518 * t766 -
+      (rear_contacts1bn0_z * t767 - rear_contacts1bn0_y * t768))))));
   const Real t960 = t810 * t938;
-  const Real t967 = t752 * t960 - (rear_contacts1bn0_z * t799 - (t518 * t798 - (t527 * t797 - (t533 * t796 +
-      (t546 * t794 - t539 * t795)))));
+  const Real t967 = t752 * t960 - (t546 * t794 - (t539 * t795 - (t533 * t796 - (t527 * t797 - (t518 * t798 +
+      rear_contacts1bn0_z * t799)))));
   const Real t970 = t848 * t938;
-  const Real t977 = t752 * t970 - (rear_contacts1bn0_z * t836 - (t518 * t835 - (t527 * t834 - (t533 * t833 +
-      (t546 * t831 - t539 * t832)))));
+  const Real t977 = t752 * t970 - (t546 * t831 - (t539 * t832 - (t533 * t833 - (t527 * t834 - (t518 * t835 +
+      rear_contacts1bn0_z * t836)))));
   const Real t981 = t895 * t938;
-  const Real t988 = t752 * t981 - (rear_contacts1bn0_z * t882 - (t518 * t881 - (t527 * t880 - (t533 * t879 +
-      (t546 * t877 - t539 * t878)))));
-  const Real t993 = Real(1.0) / (t752 * t939 - (rear_contacts1bn0_y * rear_contacts1bn0_y *
-      Real(8.333333333333334) + (rear_contacts1bn0_z * t741 - (t518 * t740 - (t527 * t739 - (t533 * t738 +
-      (t546 * t736 - t539 * t737)))))) - Real(7.806783314072456e-11));
+  const Real t988 = t752 * t981 - (t546 * t877 - (t539 * t878 - (t533 * t879 - (t527 * t880 - (t518 * t881 +
+      rear_contacts1bn0_z * t882)))));
+  const Real t993 = Real(1.0) / (t752 * t939 - (t546 * t736 - (t539 * t737 - (t533 * t738 - (t527 * t739 -
+      (t518 * t740 - (rear_contacts1bn0_z * t741 + (rear_contacts1bn0_y * (rear_contacts1bn0_y *
+      Real(8.333333333333334)) + Real(7.806783314072456e-11)))))))));
   const Real t994 = t958 * t993;
   const Real t1006 = t967 * t993;
-  const Real t1014 = t958 * t1006 - (t779 * t960 - (rear_contacts2bn0_z * t799 + (t548 * t798 - (t557 * t797 -
-      (t563 * t796 + (t576 * t794 - t570 * t795))))));
+  const Real t1014 = t958 * t1006 - (t779 * t960 - (t576 * t794 - (t570 * t795 - (t563 * t796 - (t557 * t797 -
+      (t548 * t798 + rear_contacts2bn0_z * t799))))));
   const Real t1016 = t977 * t993;
-  const Real t1024 = t958 * t1016 - (t779 * t970 - (rear_contacts2bn0_z * t836 + (t548 * t835 - (t557 * t834 -
-      (t563 * t833 + (t576 * t831 - t570 * t832))))));
+  const Real t1024 = t958 * t1016 - (t779 * t970 - (t576 * t831 - (t570 * t832 - (t563 * t833 - (t557 * t834 -
+      (t548 * t835 + rear_contacts2bn0_z * t836))))));
   const Real t1027 = t988 * t993;
-  const Real t1035 = t958 * t1027 - (t779 * t981 - (rear_contacts2bn0_z * t882 + (t548 * t881 - (t557 * t880 -
-      (t563 * t879 + (t576 * t877 - t570 * t878))))));
-  const Real t1039 = Real(1.0) / (t958 * t994 - (t779 * t950 - (rear_contacts2bn0_y * t768 +
-      (rear_contacts2bn0_z * t767 - (t548 * t766 - (t557 * t765 - (t563 * t764 + (t576 * t762 - t570 *
-      t763))))))) + Real(8.816994788327498e-12));
+  const Real t1035 = t958 * t1027 - (t779 * t981 - (t576 * t877 - (t570 * t878 - (t563 * t879 - (t557 * t880 -
+      (t548 * t881 + rear_contacts2bn0_z * t882))))));
+  const Real t1039 = Real(1.0) / (t958 * t994 - (t779 * t950 - (t576 * t762 - (t570 * t763 - (t563 * t764 -
+      (t557 * t765 - (t548 * t766 - (rear_contacts2bn0_z * t767 + (rear_contacts2bn0_y * t768 +
+      Real(8.816994788327498e-12))))))))));
   const Real t1040 = t1014 * t1039;
   const Real t1053 = t1024 * t1039;
-  const Real t1063 = t1014 * t1053 - (t967 * t1016 - (t810 * t970 + (t87 * t837 - (t579 * t836 - (t588 * t835
-      - (t597 * t834 - (t605 * t833 + (t619 * t831 - t612 * t832))))))));
+  const Real t1063 = t1014 * t1053 - (t967 * t1016 - (t810 * t970 - (t619 * t831 - (t612 * t832 - (t605 * t833
+      - (t597 * t834 - (t588 * t835 - (t579 * t836 - t87 * t837))))))));
   const Real t1065 = t1035 * t1039;
-  const Real t1075 = t1014 * t1065 - (t967 * t1027 - (t810 * t981 + (t87 * t883 - (t579 * t882 - (t588 * t881
-      - (t597 * t880 - (t605 * t879 + (t619 * t877 - t612 * t878))))))));
-  const Real t1078 = Real(1.0) / (t1014 * t1040 - (t967 * t1006 - (t810 * t960 + (model.c29 * (t87 * t87) -
-      (t579 * t799 - (t588 * t798 - (t597 * t797 - (t605 * t796 + (t619 * t794 - t612 * t795)))))))) -
-      Real(3.988016169236579e-12));
+  const Real t1075 = t1014 * t1065 - (t967 * t1027 - (t810 * t981 - (t619 * t877 - (t612 * t878 - (t605 * t879
+      - (t597 * t880 - (t588 * t881 - (t579 * t882 + t87 * t883))))))));
+  const Real t1078 = Real(1.0) / (t1014 * t1040 - (t967 * t1006 - (t810 * t960 - (t619 * t794 - (t612 * t795 -
+      (t605 * t796 - (t597 * t797 - (t588 * t798 - (t579 * t799 - (t87 * (t87 * model.c29) -
+      Real(3.988016169236579e-12)))))))))));
   const Real t1079 = t1063 * t1078;
   const Real t1094 = t1075 * t1078;
-  const Real t1106 = t1063 * t1094 - (t1024 * t1065 - (t977 * t1027 - (t848 * t981 - (front_contacts1bn3p_x *
-      t884 - (front_contacts1bm_z * t883 - (t627 * t882 - (t638 * t881 - (t649 * t880 - (t656 * t879 + (t671 *
-      t877 - t663 * t878))))))))));
-  const Real t1108 = Real(1.0) / (t1063 * t1079 - (t1024 * t1053 - (t977 * t1016 - (t848 * t970 -
-      (Real(3.571428571428571) * (front_contacts1bn3p_x * front_contacts1bn3p_x) - (front_contacts1bm_z * t837
-      - (t627 * t836 - (t638 * t835 - (t649 * t834 - (t656 * t833 + (t671 * t831 - t663 * t832)))))))))) +
-      Real(4.6476630875276904e-11));
+  const Real t1106 = t1063 * t1094 - (t1024 * t1065 - (t977 * t1027 - (t848 * t981 - (t671 * t877 - (t663 *
+      t878 - (t656 * t879 - (t649 * t880 - (t638 * t881 - (t627 * t882 + (front_contacts1bm_z * t883 +
+      front_contacts1bn3p_x * t884))))))))));
+  const Real t1108 = Real(1.0) / (t1063 * t1079 - (t1024 * t1053 - (t977 * t1016 - (t848 * t970 - (t671 * t831
+      - (t663 * t832 - (t656 * t833 - (t649 * t834 - (t638 * t835 - (t627 * t836 + (front_contacts1bn3p_x *
+      (front_contacts1bn3p_x * Real(3.571428571428571)) - (front_contacts1bm_z * t837 -
+      Real(4.6476630875276904e-11)))))))))))));
   const Real t1109 = t1106 * t1108;
   const Real t1125 = Real(1.0) / (t1106 * t1109 - (t1075 * t1094 - (t1035 * t1065 - (t988 * t1027 - (t895 *
-      t981 - (front_contacts2bn3p_x * t884 - (front_contacts2bm_z * t883 - (t679 * t882 - (t690 * t881 - (t701
-      * t880 - (t708 * t879 + (t723 * t877 - t716 * t878))))))))))) - Real(2.7054786900152528e-11));
+      t981 - (t723 * t877 - (t716 * t878 - (t708 * t879 - (t701 * t880 - (t690 * t881 - (t679 * t882 +
+      (front_contacts2bn3p_x * t884 - (front_contacts2bm_z * t883 - Real(2.7054786900152528e-11))))))))))))));
   const Real t1130 = t50 * state.z[5] + (t48 * state.z[3] + t49 * state.z[4]);
   const Real t1135 = t49 * state.z[5] + (t47 * state.z[3] - t50 * state.z[4]);
   const Real t1140 = t48 * state.z[5] - (t50 * state.z[3] + t47 * state.z[4]);
@@ -2416,52 +2423,58 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t1171 = state.z[4] + c2 * state.z[8];
   const Real t1173 = state.z[3] + Real(0.3090169943749474) * state.z[7];
   const Real t1174 = front_contactbd2p_x * state.z[8] - t1173;
-  const Real t1183 = q0d3 * t1130 - t1145 * t1147;
-  const Real t1186 = q0d2 * t1145 - q0d3 * t1140;
-  const Real t1188 = q0d2 * t1130 + t1140 * t1147;
-  const Real t1192 = q0d1 * t1130 - t1135 * t1147;
-  const Real t1194 = q0d1 * t1145 + q0d3 * t1135;
-  const Real t1195 = t1186 - t1192;
-  const Real t1197 = q0d1 * t1140 - q0d2 * t1135;
-  const Real t1198 = t1140 * (q0d2 + q0d2) - t1135 * (q0d1 + q0d1);
-  const Real t1199 = t1188 + t1194;
-  const Real t1200 = t1188 - t1194;
-  const Real t1201 = front_contactbx3_x * Real(0.3090169943749474);
-  const Real t1208 = q0r0_z * state.z[4] - q0r0_y * state.z[5];
-  const Real t1214 = front_contactbx3_x * Real(0.9510565162951535);
-  const Real t1222 = q0r1_x * state.z[5] - q0r1_z * state.z[3];
-  const Real t1225 = state.z[7] * t1214 + (front_contactbx2p_z * state.z[4] + front_contactbx3_x *
-      state.z[5]);
-  const Real t1227 = front_contactbx2p_x * state.z[4] - front_contactbx3_x * t1173;
-  const Real t1232 = rear_contactc_z * state.z[5];
-  const Real t1237 = Real(0.9510565162951535) * state.z[7] + (state.z[5] + front_contactbd2p_z * state.z[8]);
-  const Real t1249 = q0r2_z * t1237 + (q0r2_x * t1174 - q0r2_y * t1171);
-  const Real t1255 = front_contactbx3_y * state.z[7] + (front_contactbx2p_z * state.z[3] + front_contactbx2p_x
-      * state.z[5]);
-  const Real t1259 = t51 * t88;
-  const Real t1261 = t51 + t88 * t1259;
-  const Real t1265 = t89 + (t89 - rear_contactc_z * t1259);
-  const Real t1268 = rear_contactc_z * state.z[3];
-  const Real t1271 = model.rear_radius * state.z[3];
-  const Real t1272 = state.z[4] + state.z[6];
-  const Real t1280 = model.rear_radius * state.z[4];
-  const Real t1289 = q0r2_y * t1272 - (q0r2_z * state.z[5] - q0r2_x * state.z[3]);
-  const Real t1294 = rear_contactc_z * t1272 + t89 * t1289;
-  const Real t1295 = t1186 + t1192;
-  const Real t1314 = Real(0.9510565162951535) * (t1199 * (t85 * state.z[7]));
-  const Real t1317 = Real(2.0) * t56;
-  const Real t1333 = t53 * t57;
-  const Real t1335 = t1317 + t52 * t54 * t1333;
-  const Real t1339 = t57 * t1249;
-  const Real t1367 = front_contactbd2p_x * t1199 + (t63 * state.z[7] - (front_contactbd2p_z * t1198 + c2 *
-      t1195));
-  const Real t1373 = front_contactbd2p_z * t1339 + front_contactc_z * t1237;
-  const Real t1378 = c2 * t1339 + front_contactc_z * t1171;
-  const Real t1380 = front_contactbd2p_x * t1339 + front_contactc_z * t1174;
-  const Real t1383 = t129 * t1333 - t52 * t1317;
-  const Real t1397 = model.rear_radius * t1195;
-  const Real t1401 = t1183 - t1197;
-  const Real t1402 = t1183 + t1197;
+  const Real t1182 = q0d3 * t1130 - t1145 * t1147;
+  const Real t1185 = q0d2 * t1145 - q0d3 * t1140;
+  const Real t1187 = q0d2 * t1130 + t1140 * t1147;
+  const Real t1191 = q0d1 * t1130 - t1135 * t1147;
+  const Real t1193 = q0d1 * t1145 + q0d3 * t1135;
+  const Real t1194 = t1185 - t1191;
+  const Real t1196 = q0d1 * t1140 - q0d2 * t1135;
+  const Real t1197 = t1140 * (q0d2 + q0d2) - t1135 * (q0d1 + q0d1);
+  const Real t1198 = t1187 + t1193;
+  const Real t1199 = t1187 - t1193;
+  const Real t1200 = front_contactbx3_x * Real(0.3090169943749474);
+  const Real t1207 = q0r0_z * state.z[4] - q0r0_y * state.z[5];
+  const Real t1213 = front_contactbx3_x * Real(0.9510565162951535);
+  const Real t1221 = q0r1_x * state.z[5] - q0r1_z * state.z[3];
+  const Real t1224 = front_contactbx2p_z * state.z[4] + (front_contactbx3_x * state.z[5] + state.z[7] *
+      t1213);
+  const Real t1226 = front_contactbx2p_x * state.z[4] - front_contactbx3_x * t1173;
+  const Real t1230 = rear_contactc_z * state.z[5];
+  const Real t1233 = Real(0.9510565162951535) * state.z[7];
+  const Real t1235 = front_contactbd2p_z * state.z[8] + (state.z[5] + t1233);
+  const Real t1238 = state.z[5] * t1197;
+  const Real t1241 = t1197 * t1235;
+  const Real t1245 = q0r2_z * t1235 + (q0r2_x * t1174 - q0r2_y * t1171);
+  const Real t1251 = front_contactbx2p_x * state.z[5] + (front_contactbx2p_z * state.z[3] + front_contactbx3_y
+      * state.z[7]);
+  const Real t1255 = t51 * t88;
+  const Real t1257 = t51 + t88 * t1255;
+  const Real t1261 = rear_contactc_z * t1255 - (t89 + t89);
+  const Real t1262 = rear_contactc_z * state.z[3];
+  const Real t1265 = model.rear_radius * state.z[3];
+  const Real t1266 = state.z[4] + state.z[6];
+  const Real t1272 = model.rear_radius * state.z[4];
+  const Real t1281 = q0r2_z * state.z[5] - (q0r2_x * state.z[3] + q0r2_y * t1266);
+  const Real t1287 = rear_contactc_z * t1266 - t89 * t1281;
+  const Real t1288 = t1185 + t1191;
+  const Real t1297 = t1171 * t1194;
+  const Real t1302 = state.z[3] * t1198;
+  const Real t1306 = t85 * (t1198 * t1233);
+  const Real t1307 = t1174 * t1198;
+  const Real t1310 = Real(2.0) * t56;
+  const Real t1325 = t53 * t57;
+  const Real t1328 = t1310 + t1325 * (t52 * t54);
+  const Real t1332 = t57 * t1245;
+  const Real t1360 = front_contactbd2p_z * t1197 + c2 * t1194 - (t63 * state.z[7] + front_contactbd2p_x *
+      t1198);
+  const Real t1365 = front_contactbd2p_z * t1332 + front_contactc_z * t1235;
+  const Real t1370 = c2 * t1332 + front_contactc_z * t1171;
+  const Real t1372 = front_contactbd2p_x * t1332 + front_contactc_z * t1174;
+  const Real t1375 = t129 * t1325 - t52 * t1310;
+  const Real t1390 = model.rear_radius * t1194;
+  const Real t1394 = t1182 - t1196;
+  const Real t1395 = t1182 + t1196;
   const Real w2p_y = Real(0.3090169943749474) * state.z[5] - Real(0.9510565162951535) * state.z[3];
   const Real w2p_z = Real(0.3090169943749474) * state.z[3] + Real(0.9510565162951535) * state.z[5];
   const Real w2_z = state.z[7] + w2p_z;
@@ -2469,9 +2482,9 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real rfallW_x = q0r2_x * Real(9.81);
   const Real rfallW_y = q0r2_y * Real(9.81);
   const Real rfallW_z = q0r2_z * Real(9.81);
-  const Real rSu0_x = state.z[5] * S2c_xz - (state.z[3] * S1c_xx + state.z[4] * S2c_xy);
-  const Real rSu0_y = state.z[5] * S2c_yz - (state.z[3] * S2c_xy - state.z[4] * S2c_yy);
-  const Real rSu0_z = state.z[5] * S1c_zz - (state.z[3] * S2c_xz + state.z[4] * S2c_yz);
+  const Real rSu0_x = state.z[5] * S2c_xz - (state.z[3] * S1c_xx - state.z[4] * S2c_xy);
+  const Real rSu0_y = state.z[5] * S2c_yz - (state.z[3] * S2c_xy + state.z[4] * S2c_yy);
+  const Real rSu0_z = state.z[3] * S2c_xz - (state.z[4] * S2c_yz - state.z[5] * S1c_zz);
   const Real ruh0 = state.z[5] * h2c_z - (state.z[3] * h2c_x + state.z[4] * h2b_x);
   const Real rL0w00 = state.z[3] * state.z[3];
   const Real rL0w11 = state.z[4] * state.z[4];
@@ -2479,125 +2492,124 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real rL0w22 = state.z[5] * state.z[5];
   const Real ruw0 = rL0U2_z + rL0w22;
   const Real z2_1 = Real(2.0) * state.z[6];
-  const Real rdn1_x = state.z[3] * z2_1 * Real(0.06);
-  const Real rdn1_y = Real(0.06) * (state.z[5] * z2_1);
-  const Real rL0w01 = state.z[3] * state.z[4];
+  const Real rdn1_x = z2_1 * (state.z[3] * Real(0.06));
+  const Real rdn1_y = z2_1 * (state.z[5] * Real(0.06));
   const Real rL0w02 = state.z[3] * state.z[5];
-  const Real rL0w12 = state.z[4] * state.z[5];
   const Real rL0U0_x = rL0w11 + rL0w22;
-  const Real ra2o_x = model.r_steer_z * rL0w02 + (rfallW_x + model.r_steer_x * rL0U0_x);
-  const Real ra2o_y = model.r_steer_z * rL0w12 + (rfallW_y - model.r_steer_x * rL0w01);
-  const Real ra2o_z = model.r_steer_z * rL0U2_z + (rfallW_z + model.r_steer_x * rL0w02);
+  const Real ra2o_x = rfallW_x + (model.r_steer_x * rL0U0_x + model.r_steer_z * rL0w02);
+  const Real ra2o_y = rfallW_y - (model.r_steer_x * (state.z[3] * state.z[4]) - model.r_steer_z * (state.z[4]
+      * state.z[5]));
+  const Real ra2o_z = rfallW_z + (model.r_steer_x * rL0w02 + model.r_steer_z * rL0U2_z);
   const Real ra2_y = Real(0.3090169943749474) * ra2o_z + Real(0.9510565162951535) * ra2o_x;
-  const Real rKx2 = S2b_xz * w2p_z - (state.z[4] * S2b_xx - S2b_xy * w2p_y);
+  const Real rKx2 = state.z[4] * S2b_xx - (S2b_xy * w2p_y + S2b_xz * w2p_z);
   const Real rKy2 = S2b_yy * w2p_y + (state.z[4] * S2b_xy - S2b_yz * w2p_z);
   const Real z2_2 = Real(2.0) * state.z[7];
   const Real zz_2 = state.z[7] * state.z[7];
   const Real zw_2 = state.z[7] * (w2p_z + w2_z);
   const Real rdf2_x = h2b_x * zw_2;
   const Real rdf2_y = h2b_y * zw_2;
-  const Real rdf2_z = model.front_h_y * (w3pp_y * z2_2);
+  const Real rdf2_z = w3pp_y * (model.front_h_y * z2_2);
   const Real rKx3 = w3pp_y * Real(0.14);
   const Real rQp3 = z2_2 * rKx3;
   const Real z2_3 = Real(2.0) * state.z[8];
-  const Real rdn3_x = Real(0.14) * (w2_z * z2_3);
+  const Real rdn3_x = w2_z * (Real(0.14) * z2_3);
   const Real rdn3_y = rKx3 * z2_3;
   const Real rn2b_x = s2 * rdn3_x;
   const Real rn2b_y = c2 * rdn3_x;
-  const Real rn2_y = rn2b_y - (S2b_xz * zz_2 + rKx2 * z2_2);
+  const Real rn2_y = rKx2 * z2_2 - (S2b_xz * zz_2 - rn2b_y);
   const Real rf2p_x = Real(0.3090169943749474) * rdf2_z - Real(0.9510565162951535) * rdf2_y;
   const Real rf2p_z = Real(0.3090169943749474) * rdf2_y + Real(0.9510565162951535) * rdf2_z;
-  const Real rf0_x = rf2p_x - (state.z[3] * ruh0 + h2c_x * ruw0);
-  const Real rf0_y = rdf2_x + (state.z[4] * ruh0 + h2b_x * ruw0);
-  const Real rf0_z = rf2p_z - (state.z[5] * ruh0 - h2c_z * ruw0);
-  const Real tau_2_0 = input.u[0] - (rdn3_y + (w2p_y * rKx2 - (h2b_y * ra2o_y + (state.z[4] * rKy2 - h2b_x *
-      ra2_y))));
-  const Real t1591 = t331 * tau_2_0 - (t321 * rQp3 - (model.r_steer_x * rdf2_x - (Real(0.9510565162951535) *
-      rdn3_y + (Real(0.3090169943749474) * rn2_y + (rdn1_x - (h2c_x * rfallW_y - (h2b_x * rfallW_x +
-      (state.z[3] * rSu0_y - state.z[4] * rSu0_x))))))));
-  const Real t1608 = t372 * t1591 - (t351 * tau_2_0 - (t325 * rQp3 - (model.r_steer_z * rf2p_x +
-      (model.r_steer_x * rf2p_z + (rn2b_x - (rKy2 * z2_2 - (S2b_yz * zz_2 - (h2c_z * rfallW_x - (h2c_x *
-      rfallW_z - (state.z[3] * rSu0_z + state.z[5] * rSu0_x))))))))));
-  const Real t1624 = t411 * t1608 - (t396 * t1591 - (t357 * tau_2_0 - (t328 * rQp3 + (model.r_steer_z * rdf2_x
-      + (Real(0.9510565162951535) * rn2_y - (Real(0.3090169943749474) * rdn3_y - (rdn1_y + (h2c_z * rfallW_y -
-      (h2b_x * rfallW_z - (state.z[4] * rSu0_z + state.z[5] * rSu0_y))))))))));
-  const Real t1636 = t443 * t1624 - (t433 * t1608 - (t401 * t1591 - (t362 * tau_2_0 - (q0r2_z * rf0_z -
-      (q0r2_x * rf0_x - q0r2_y * rf0_y))))) + Real(922.1400000000001);
-  const Real t1646 = t464 * t1636 - (t458 * t1624 - (t437 * t1608 - (t405 * t1591 - (t366 * tau_2_0 - (q0r1_z
-      * rf0_z + (q0r1_x * rf0_x + q0r1_y * rf0_y))))));
-  const Real t1657 = t487 * (t479 * t1646 - (t476 * t1636 - (t461 * t1624 - (t440 * t1608 - (t408 * t1591 -
-      (t369 * tau_2_0 - (q0r0_z * rf0_z + (q0r0_x * rf0_x - q0r0_y * rf0_y))))))));
-  const Real t1658 = t478 * t1646;
-  const Real t1659 = t463 * t1636;
-  const Real t1660 = t442 * t1624;
-  const Real t1661 = t410 * t1608;
-  const Real t1662 = t371 * t1591;
-  const Real t1663 = model.c29 * tau_2_0;
-  const Real t1664 = Real(3.571428571428571) * rQp3;
-  const Real t1716 = t1199 * (t1280 - t89 * state.z[5]) - (t91 * t1662 - (t489 * t1661 - (t497 * t1660 - (t504
-      * t1659 - (t510 * t1658 - (t516 * t1657 + (state.z[3] * (t89 * t1198 - t1397) + t1195 * t1261 *
-      t1397)))))));
-  const Real t1731 = t939 * t1716 + (rear_contacts1bn0_z * t1662 - (t518 * t1661 - (t527 * t1660 - (t533 *
-      t1659 - (t539 * t1658 - (t546 * t1657 + (t1268 * t1402 - (t1232 * t1295 - (t1222 * t1294 - (t1208 *
-      t1280 + (t1271 * t1401 - (t1199 * (rear_contactc_y * state.z[3]) + (t1198 * (rear_contactc_y *
-      state.z[5]) + t1195 * (t102 * t1261 * t1289 - (t1265 * (q0r1_y * t1272 - (q0r1_z * state.z[5] + q0r1_x *
-      state.z[3])) - rear_contactc_y * t1272)))))))))))))));
-  const Real t1751 = t994 * t1731 - (t950 * t1716 + (rear_contacts2bn0_z * t1662 + (t548 * t1661 - (t557 *
-      t1660 - (t563 * t1659 - (t570 * t1658 - (t576 * t1657 - (t1200 * t1232 + (t1280 * t1402 - (t1222 * t1271
-      - (t1208 * t1268 - (t1294 * t1401 + (t1199 * (rear_contactc_x * state.z[3]) + (t1198 * (rear_contactc_x
-      * state.z[5]) + t1195 * (t112 * t1261 * t1289 - (t1265 * (q0r0_y * t1272 + (q0r0_z * state.z[5] + q0r0_x
-      * state.z[3])) - rear_contactc_x * t1272))))))))))))))));
-  const Real t1785 = t1195 * (t72 * state.z[5] + t70 * state.z[3]) - (t1199 * (t85 * state.z[5] + t70 *
-      state.z[4]) - (t1198 * (t85 * state.z[3] - t72 * state.z[4]) + (state.z[7] * (t85 * t1198 *
-      Real(0.6180339887498948) + (state.z[7] * (front_contactbd0p_z * t57 - model.r_front_y * t63) + Real(2.0)
-      * (t1195 * (front_contactbx3_y - s2 * t57)))) - (t1040 * t1751 - (t1006 * t1731 - (t960 * t1716 - (t87 *
-      t1663 - (t579 * t1662 - (t588 * t1661 - (t597 * t1660 - (t605 * t1659 - (t612 * t1658 - (t619 * t1657 -
-      (t1367 * (t1335 * t1367) + (t1314 + t1314)))))))))))))));
-  const Real t1810 = t1079 * t1785 + (t1053 * t1751 - (t1016 * t1731 - (t970 * t1716 - (front_contacts1bn3p_x
-      * t1664 + (front_contacts1bm_z * t1663 - (t627 * t1662 - (t638 * t1661 - (t649 * t1660 - (t656 * t1659 -
-      (t663 * t1658 - (t671 * t1657 - (t1200 * t1227 + (t1380 * t1402 + (t1295 * t1373 - (t1222 * t1378 -
-      (t1208 * t1225 + (t1255 * t1401 + (t1367 * (t1249 * (front_contactbd0p_y * t1335) - t1383 * (q0r1_y *
-      t1171 - (q0r1_z * t1237 - q0r1_x * t1174))) + (state.z[7] * (t1208 * t1214 - (t1339 * (q0r1_x * t1149 -
-      (s2 * q0r1_y + q0r1_z * t1150)) + ((q0r0_y * state.z[3] - q0r0_x * state.z[4]) * t1201 - (state.z[7] *
-      (front_contactbx3_y * front_contacts1bf2_y - front_contactbx3_x * q0r0_y) + (state.z[8] * (c2 *
-      front_contacts1bn2_y + s2 * front_contacts1bn0_y) + front_contactbx3_y * (q0r0_z * state.z[3] - q0r0_x *
-      state.z[5])))))) + (front_contactc_y * t1174 * t1199 - (t1198 * (front_contactc_y * t1237) + t1195 *
-      (front_contactc_y * t1171))))))))))))))))))))));
-  const Real t1841 = t1125 * (t1109 * t1810 - (t1094 * t1785 + (t1065 * t1751 - (t1027 * t1731 - (t981 * t1716
-      - (front_contacts2bn3p_x * t1664 + (front_contacts2bm_z * t1663 - (t679 * t1662 - (t690 * t1661 - (t701
-      * t1660 - (t708 * t1659 - (t716 * t1658 - (t723 * t1657 - (t1200 * t1373 + (t1225 * t1402 - (t1227 *
-      t1295 + (t1222 * t1255 + (t1208 * t1380 + (t1378 * t1401 + (t1367 * (t1249 * (front_contactbd0p_x *
-      t1335) + t1383 * (q0r0_z * t1237 + (q0r0_y * t1171 - q0r0_x * t1174))) - (state.z[7] * (t1214 * (q0r1_y
-      * state.z[5] + q0r1_z * state.z[4]) + (t1339 * (q0r0_x * t1149 + (s2 * q0r0_y - q0r0_z * t1150)) +
-      (t1201 * (q0r1_y * state.z[3] + q0r1_x * state.z[4]) + (state.z[7] * (front_contactbx3_x * q0r1_y) -
-      (state.z[8] * (c2 * front_contacts2bn2_y - s2 * front_contacts2bn0_y) - front_contactbx3_y *
-      (front_contacts2bf2_y * state.z[7] - t1222)))))) + (t1171 * (front_contactc_x * t1195) - (t1199 *
-      (front_contactc_x * t1174) - t1237 * (front_contactc_x * t1198))))))))))))))))))))))));
-  const Real t1843 = t1108 * t1810 - t1109 * t1841;
-  const Real t1847 = t1094 * t1841 - (t1078 * t1785 - t1079 * t1843);
-  const Real t1853 = t1065 * t1841 + (t1053 * t1843 + (t1039 * t1751 - t1040 * t1847));
-  const Real t1861 = t1027 * t1841 + (t1016 * t1843 - (t1006 * t1847 - (t993 * t1731 - t994 * t1853)));
-  const Real t1871 = t981 * t1841 + (t970 * t1843 - (t960 * t1847 + (t950 * t1853 - (t938 * t1716 - t939 *
-      t1861))));
-  const Real t1872 = Real(1.8087085566416913e-12) * t1871;
-  const Real t1879 = Real(7.806783314072456e-11) * t1861 - t939 * t1872;
-  const Real t1886 = t994 * t1879 - (Real(8.816994788327498e-12) * t1853 - t950 * t1872);
-  const Real t1893 = t1040 * t1886 - (t1006 * t1879 - (Real(3.988016169236579e-12) * t1847 - t960 * t1872));
-  const Real t1900 = t1079 * t1893 - (t1053 * t1886 - (t1016 * t1879 + (Real(4.6476630875276904e-11) * t1843 +
-      t970 * t1872)));
-  const Real t1913 = t1125 * (t1109 * t1900 - (t1094 * t1893 - (t1065 * t1886 - (t1027 * t1879 +
-      (Real(2.7054786900152528e-11) * t1841 + t981 * t1872)))));
-  const Real t1915 = t1108 * t1900 - t1109 * t1913;
-  const Real t1919 = t1094 * t1913 - (t1078 * t1893 - t1079 * t1915);
-  const Real t1925 = t1065 * t1913 + (t1053 * t1915 - (t1039 * t1886 + t1040 * t1919));
-  const Real t1933 = t1027 * t1913 + (t1016 * t1915 - (t1006 * t1919 + (t993 * t1879 + t994 * t1925)));
-  lambda[0] = t981 * t1913 + (t970 * t1915 - (t960 * t1919 + (t950 * t1925 + (t939 * t1933 - (t1871 + t938 *
-      t1872)))));
-  lambda[1] = -(t1861 + t1933);
-  lambda[2] = -(t1853 + t1925);
-  lambda[3] = -(t1847 + t1919);
-  lambda[4] = t1843 + t1915;
-  lambda[5] = -(t1841 + t1913);
+  const Real rf0_x = state.z[3] * ruh0 + (h2c_x * ruw0 - rf2p_x);
+  const Real rf0_y = state.z[4] * ruh0 + (h2b_x * ruw0 + rdf2_x);
+  const Real rf0_z = state.z[5] * ruh0 - (h2c_z * ruw0 + rf2p_z);
+  const Real tau_2_0 = state.z[4] * rKy2 + (w2p_y * rKx2 - (rdn3_y - (h2b_y * ra2o_y - (h2b_x * ra2_y -
+      input.u[0]))));
+  const Real t1584 = state.z[4] * rSu0_x + (state.z[3] * rSu0_y + (h2c_x * rfallW_y + (model.r_steer_x *
+      rdf2_x - (h2b_x * rfallW_x + rdn1_x)) - (Real(0.9510565162951535) * rdn3_y + t321 * rQp3)) -
+      (Real(0.3090169943749474) * rn2_y - t331 * tau_2_0));
+  const Real t1601 = t372 * t1584 + (state.z[5] * rSu0_x - (state.z[3] * rSu0_z + (t351 * tau_2_0 +
+      (model.r_steer_z * rf2p_x - (h2c_z * rfallW_x + t325 * rQp3) - (rKy2 * z2_2 - (model.r_steer_x * rf2p_z
+      + (h2c_x * rfallW_z + (S2b_yz * zz_2 + rn2b_x))))))));
+  const Real t1617 = t411 * t1601 - (t396 * t1584 + (state.z[4] * rSu0_z + (state.z[5] * rSu0_y - (h2c_z *
+      rfallW_y + (model.r_steer_z * rdf2_x - (h2b_x * rfallW_z - rdn1_y)) - (Real(0.3090169943749474) * rdn3_y
+      - t328 * rQp3)) - (Real(0.9510565162951535) * rn2_y + t357 * tau_2_0))));
+  const Real t1629 = t443 * t1617 - (t433 * t1601 - (t401 * t1584 + (q0r2_y * rf0_y - q0r2_z * rf0_z - (t362 *
+      tau_2_0 - (q0r2_x * rf0_x + Real(922.1400000000001))))));
+  const Real t1639 = t464 * t1629 - (t458 * t1617 - (t437 * t1601 - (t405 * t1584 - (q0r1_x * rf0_x - q0r1_y *
+      rf0_y + (q0r1_z * rf0_z + t366 * tau_2_0)))));
+  const Real t1650 = t487 * (t479 * t1639 - (t476 * t1629 - (t461 * t1617 - (t440 * t1601 - (t408 * t1584 +
+      (q0r0_x * rf0_x - q0r0_y * rf0_y - (q0r0_z * rf0_z + t369 * tau_2_0)))))));
+  const Real t1651 = t478 * t1639;
+  const Real t1652 = t463 * t1629;
+  const Real t1653 = t442 * t1617;
+  const Real t1654 = t410 * t1601;
+  const Real t1655 = t371 * t1584;
+  const Real t1656 = model.c29 * tau_2_0;
+  const Real t1657 = Real(3.571428571428571) * rQp3;
+  const Real t1710 = t516 * t1650 - (t510 * t1651 - (t504 * t1652 - (t497 * t1653 - (t489 * t1654 - (t91 *
+      t1655 - (t1198 * (t1272 - t89 * state.z[5]) + (state.z[3] * (t89 * t1197 - t1390) + t1257 * (t1194 *
+      t1390))))))));
+  const Real t1725 = t939 * t1710 - (t546 * t1650 - (t539 * t1651 - (t533 * t1652 - (t527 * t1653 - (t518 *
+      t1654 + (rear_contacts1bn0_z * t1655 + (t1194 * (t1257 * (t102 * t1281) - (t1261 * (q0r1_y * t1266 -
+      (q0r1_z * state.z[5] + q0r1_x * state.z[3])) + rear_contactc_y * t1266)) - (t1262 * t1395 +
+      (rear_contactc_y * t1238 - (t1265 * t1394 + t1207 * t1272)) + (t1221 * t1287 + (rear_contactc_y * t1302
+      - t1230 * t1288))))))))));
+  const Real t1745 = t994 * t1725 - (t950 * t1710 - (t576 * t1650 - (t570 * t1651 - (t563 * t1652 - (t557 *
+      t1653 - (t548 * t1654 + (rear_contacts2bn0_z * t1655 - (t1194 * (t1257 * (t112 * t1281) + (t1261 *
+      (q0r0_x * state.z[3] - (q0r0_z * state.z[5] + q0r0_y * t1266)) - rear_contactc_x * t1266)) + (t1199 *
+      t1230 - (rear_contactc_x * t1238 + (t1221 * t1265 - t1272 * t1395)) - (t1287 * t1394 + (rear_contactc_x
+      * t1302 - t1207 * t1262)))))))))));
+  const Real t1779 = t1040 * t1745 - (t1006 * t1725 - (t960 * t1710 - (t619 * t1650 - (t612 * t1651 - (t605 *
+      t1652 - (t597 * t1653 - (t1194 * (t72 * state.z[5] + t70 * state.z[3]) - t1198 * (t85 * state.z[5] + t70
+      * state.z[4]) - (t579 * t1655 + (t1328 * (t1360 * t1360) - t87 * t1656)) + (t588 * t1654 + (state.z[7] *
+      ((front_contactbx3_y - s2 * t57) * (Real(2.0) * t1194) + (state.z[7] * (front_contactbd0p_z * t57 -
+      model.r_front_y * t63) + t85 * (t1197 * Real(0.6180339887498948)))) + (t1197 * (t85 * state.z[3] - t72 *
+      state.z[4]) - (t1306 + t1306)))))))))));
+  const Real t1804 = t1079 * t1779 - (t1053 * t1745 - (t1016 * t1725 - (t970 * t1710 - (t671 * t1650 - (t663 *
+      t1651 - (t656 * t1652 - (t649 * t1653 - (t638 * t1654 - (t627 * t1655 + (state.z[7] * (state.z[8] * (c2
+      * front_contacts1bn2_y + s2 * front_contacts1bn0_y) - (t1332 * (q0r1_x * t1149 - (s2 * q0r1_y + q0r1_z *
+      t1150)) - (front_contactbx3_y * (q0r0_z * state.z[3] + q0r0_x * state.z[5]) - (q0r0_y * state.z[3] +
+      q0r0_x * state.z[4]) * t1200 + (state.z[7] * (front_contactbx3_y * front_contacts1bf2_y -
+      front_contactbx3_x * q0r0_y) + t1207 * t1213)))) - (front_contacts1bn3p_x * t1657 + (front_contacts1bm_z
+      * t1656 + (t1360 * (t1328 * (front_contactbd0p_y * t1245) - t1375 * (q0r1_x * t1174 - (q0r1_z * t1235 -
+      q0r1_y * t1171))) + (t1221 * t1370 - t1288 * t1365 - (t1372 * t1395 - (front_contactc_y * t1241 - (t1251
+      * t1394 + (t1207 * t1224 + t1199 * t1226)) + (front_contactc_y * t1297 - front_contactc_y *
+      t1307)))))))))))))))));
+  const Real t1835 = t1125 * (t1109 * t1804 - (t1094 * t1779 - (t1065 * t1745 - (t1027 * t1725 - (t981 * t1710
+      - (t723 * t1650 - (t716 * t1651 - (t708 * t1652 - (t701 * t1653 - (t690 * t1654 - (t679 * t1655 -
+      (state.z[7] * (state.z[8] * (c2 * front_contacts2bn2_y - s2 * front_contacts2bn0_y) + (t1332 * (q0r0_x *
+      t1149 - (s2 * q0r0_y - q0r0_z * t1150)) - (front_contactbx3_y * (front_contacts2bf2_y * state.z[7] -
+      t1221) + front_contactbx3_x * (q0r1_y * state.z[7]) + (t1200 * (q0r1_y * state.z[3] + q0r1_x *
+      state.z[4]) + t1213 * (q0r1_y * state.z[5] + q0r1_z * state.z[4]))))) + (front_contacts2bn3p_x * t1657 -
+      (front_contacts2bm_z * t1656 + (t1360 * (t1328 * (front_contactbd0p_x * t1245) + t1375 * (q0r0_z * t1235
+      + (q0r0_y * t1171 + q0r0_x * t1174))) - (t1370 * t1394 + t1207 * t1372 - (t1199 * t1365 -
+      (front_contactc_x * t1307 + (t1221 * t1251 + (t1226 * t1288 - t1224 * t1395)) - (front_contactc_x *
+      t1241 + front_contactc_x * t1297)))))))))))))))))));
+  const Real t1837 = t1108 * t1804 - t1109 * t1835;
+  const Real t1841 = t1079 * t1837 - (t1078 * t1779 - t1094 * t1835);
+  const Real t1847 = t1040 * t1841 - (t1053 * t1837 - (t1039 * t1745 - t1065 * t1835));
+  const Real t1855 = t994 * t1847 - (t1006 * t1841 - (t1016 * t1837 - (t993 * t1725 - t1027 * t1835)));
+  const Real t1865 = t939 * t1855 - (t950 * t1847 - (t960 * t1841 - (t970 * t1837 - (t938 * t1710 - t981 *
+      t1835))));
+  const Real t1866 = Real(1.8087085566416913e-12) * t1865;
+  const Real t1873 = Real(7.806783314072456e-11) * t1855 + t939 * t1866;
+  const Real t1880 = t994 * t1873 + (Real(8.816994788327498e-12) * t1847 - t950 * t1866);
+  const Real t1887 = t1040 * t1880 - (t1006 * t1873 - (Real(3.988016169236579e-12) * t1841 + t960 * t1866));
+  const Real t1894 = t1079 * t1887 - (t1053 * t1880 - (t1016 * t1873 + (Real(4.6476630875276904e-11) * t1837 -
+      t970 * t1866)));
+  const Real t1907 = t1125 * (t1109 * t1894 - (t1094 * t1887 - (t1065 * t1880 - (t1027 * t1873 +
+      (Real(2.7054786900152528e-11) * t1835 - t981 * t1866)))));
+  const Real t1909 = t1108 * t1894 - t1109 * t1907;
+  const Real t1913 = t1079 * t1909 - (t1078 * t1887 - t1094 * t1907);
+  const Real t1919 = t1040 * t1913 - (t1053 * t1909 - (t1039 * t1880 - t1065 * t1907));
+  const Real t1927 = t994 * t1919 - (t1006 * t1913 - (t1016 * t1909 - (t993 * t1873 - t1027 * t1907)));
+  lambda[0] = t939 * t1927 - (t950 * t1919 - (t960 * t1913 - (t970 * t1909 + (t981 * t1907 + (t1865 - t938 *
+      t1866)))));
+  lambda[1] = t1855 - t1927;
+  lambda[2] = -(t1847 - t1919);
+  lambda[3] = -(t1841 - t1913);
+  lambda[4] = t1837 - t1909;
+  lambda[5] = -(t1835 - t1907);
 }
 
 // `input` may be a function that gives the Input at the state of a stage.

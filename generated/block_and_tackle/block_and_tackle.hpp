@@ -28,7 +28,7 @@
 // Checked before this file was written
 // - validated at 8 states: in 77 digits everything below agrees to 1e-40 of its scale (what rounding can move
 //   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 9.1e-17 of the
-//   sum of absolute terms, other errors are 2.0e-16 of their scale; cond(M) up to 2.3e+00
+//   sum of absolute terms, other errors are 1.9e-16 of their scale; cond(M) up to 2.3e+00
 // - 2 kinks of abs, min, max, floor and if, 2 compared on both sides, the nearest 3e-04 of its scale away
 // - the symbolic equations (M, k_bar, q_bar, energies, initial y, initial z): the numeric reference
 // - initial_state: the description's start

@@ -127,23 +127,21 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real expression_4 = weightx1_z * weightx1_z;
   const Real expression_5 = Real(1e-18) + expression_4;
   const Real expression_6 = detail::square_root(expression_5);
-  const Real expression_7 = expression_3 + expression_3 + expression_6 + model.c2;
+  const Real expression_7 = expression_3 + model.c2 + (expression_3 + expression_6);
   const Real expression_8 = expression_7 * model.stiffness;
   const Real expression_9 = pulley_leftx0_z / expression_3;
   const Real expression_10 = expression_9 * state.z[0];
-  const Real expression_11 = expression_10 + expression_10;
-  const Real expression_12 = weightx1_z / expression_6;
-  const Real expression_13 = expression_12 * state.z[1];
-  const Real expression_14 = expression_11 + expression_13;
-  const Real expression_15 = expression_14 * model.damping;
-  const Real expression_16 = expression_8 + expression_15;
-  const Real expression_17 = detail::larger(expression_16, Real(0.0));
-  const Real expression_18 = detail::where_negative(-expression_7, expression_17);
-  const Real expression_19 = expression_9 * expression_18;
-  const Real ropesf_z = expression_19 + expression_19;
-  const Real expression_20 = expression_12 * expression_18;
-  const Real q_0 = ropesf_z + model.expression;
-  const Real q_1 = expression_20 + model.bQp12;
+  const Real expression_11 = weightx1_z / expression_6;
+  const Real expression_12 = expression_11 * state.z[1];
+  const Real expression_13 = expression_12 + (expression_10 + expression_10);
+  const Real expression_14 = expression_13 * model.damping;
+  const Real expression_15 = expression_8 + expression_14;
+  const Real expression_16 = detail::larger(expression_15, Real(0.0));
+  const Real expression_17 = detail::where_negative(-expression_7, expression_16);
+  const Real expression_18 = expression_9 * expression_17;
+  const Real expression_19 = expression_11 * expression_17;
+  const Real q_0 = expression_18 + (expression_18 + model.expression);
+  const Real q_1 = expression_19 + model.bQp12;
   q[0] = q_0;
   q[1] = q_1;
 }
@@ -159,23 +157,21 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real expression_4 = weightx1_z * weightx1_z;
   const Real expression_5 = Real(1e-18) + expression_4;
   const Real expression_6 = detail::square_root(expression_5);
-  const Real expression_7 = expression_3 + expression_3 + expression_6 + model.c2;
+  const Real expression_7 = expression_3 + model.c2 + (expression_3 + expression_6);
   const Real expression_8 = expression_7 * model.stiffness;
   const Real expression_9 = pulley_leftx0_z / expression_3;
   const Real expression_10 = expression_9 * state.z[0];
-  const Real expression_11 = expression_10 + expression_10;
-  const Real expression_12 = weightx1_z / expression_6;
-  const Real expression_13 = expression_12 * state.z[1];
-  const Real expression_14 = expression_11 + expression_13;
-  const Real expression_15 = expression_14 * model.damping;
-  const Real expression_16 = expression_8 + expression_15;
-  const Real expression_17 = detail::larger(expression_16, Real(0.0));
-  const Real expression_18 = detail::where_negative(-expression_7, expression_17);
-  const Real expression_19 = expression_9 * expression_18;
-  const Real ropesf_z = expression_19 + expression_19;
-  const Real expression_20 = expression_12 * expression_18;
-  const Real bQ0_0 = ropesf_z + model.expression;
-  const Real bQ1_0 = expression_20 + model.bQp12;
+  const Real expression_11 = weightx1_z / expression_6;
+  const Real expression_12 = expression_11 * state.z[1];
+  const Real expression_13 = expression_12 + (expression_10 + expression_10);
+  const Real expression_14 = expression_13 * model.damping;
+  const Real expression_15 = expression_8 + expression_14;
+  const Real expression_16 = detail::larger(expression_15, Real(0.0));
+  const Real expression_17 = detail::where_negative(-expression_7, expression_16);
+  const Real expression_18 = expression_9 * expression_17;
+  const Real expression_19 = expression_11 * expression_17;
+  const Real bQ0_0 = expression_18 + (expression_18 + model.expression);
+  const Real bQ1_0 = expression_19 + model.bQp12;
   const Real y_0 = bQ0_0 * model.invD_0;
   const Real y_1 = bQ1_0 * model.invD_1;
   zdot[0] = -y_0;
@@ -193,7 +189,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real expression_4 = weightx1_z * weightx1_z;
   const Real expression_5 = Real(1e-18) + expression_4;
   const Real expression_6 = detail::square_root(expression_5);
-  const Real expression_7 = expression_3 + (expression_3 + expression_6) + model.c9;
+  const Real expression_7 = expression_3 + model.c9 + (expression_3 + expression_6);
   const Real expression_8 = expression_7 * model.stiffness;
   const Real expression_9 = pulley_leftx0_z / expression_3;
   const Real expression_10 = expression_9 * state.z[0];
@@ -207,7 +203,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real expression_18 = expression_9 * expression_17;
   const Real expression_19 = expression_11 * expression_17;
   const Real adf0t_z = zdot[0] * model.load;
-  const Real aQ0_0 = adf0t_z + (expression_18 + (expression_18 + model.expression));
+  const Real aQ0_0 = expression_18 + (expression_18 + (adf0t_z + model.expression));
   const Real aQ1_0 = expression_19 + (zdot[1] + Real(9.81)) * model.counterweight;
   tau[0] = aQ0_0;
   tau[1] = aQ1_0;
@@ -215,7 +211,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
 
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept {
-  const Real T1 = (state.z[0] * state.z[0] * model.load + state.z[1] * state.z[1] * model.counterweight) *
+  const Real T1 = (model.load * (state.z[0] * state.z[0]) + model.counterweight * (state.z[1] * state.z[1])) *
       Real(0.5);
   return T1;
 }

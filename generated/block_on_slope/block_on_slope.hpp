@@ -29,8 +29,8 @@
 //   linearly_implicit_euler_step, ros34pw2_step, rosw43_step, rodas4_step
 // Checked before this file was written
 // - validated at 8 states: in 77 digits everything below agrees to 1e-40 of its scale (what rounding can move
-//   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 9.7e-16 of the
-//   sum of absolute terms, other errors are 4.1e-16 of their scale; cond(M) up to 1.3e+03
+//   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 7.3e-16 of the
+//   sum of absolute terms, other errors are 4.3e-16 of their scale; cond(M) up to 1.3e+03
 // - 8 kinks of abs, min, max, floor and if, 8 compared on both sides, the nearest 2e-02 of its scale away
 // - the symbolic equations (M, k_bar, q_bar, Z z, energies, initial y, initial z, outputs): the numeric
 //   reference
@@ -185,7 +185,7 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
 /// Entries of states are their rates.
-/// 332 operations (174 mul, 154 add and sub, 0 div), 0 sin and cos, 8 selections.
+/// 331 operations (174 mul, 153 add and sub, 0 div), 0 sin and cos, 8 selections.
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[14]) noexcept;
@@ -193,7 +193,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
 /// Entries of states are zdot less their rates.
-/// 347 operations (175 mul, 168 add and sub, 0 div), 0 sin and cos, 8 selections.
+/// 346 operations (175 mul, 167 add and sub, 0 div), 0 sin and cos, 8 selections.
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[14], Real
     (&tau)[14]) noexcept;
@@ -216,7 +216,7 @@ void outputs(const Model<Real>& model, const State<Real>& state, const Input<Rea
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 1688 operations.
+/// 1684 operations.
 template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;
 

@@ -225,8 +225,7 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[2
 template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[2]) noexcept {
   const Real s1 = detail::sine(state.y[1]);
-  const Real zw_1 = state.z[1] * state.z[1];
-  const Real kdf1_y = s1 * zw_1 * model.mr_z;
+  const Real kdf1_y = s1 * (model.mr_z * (state.z[1] * state.z[1]));
   k[0] = kdf1_y;
   k[1] = Real(0.0);
 }
@@ -243,18 +242,16 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[2]) noexcept {
-  const Real lww1 = state.z[1] * state.z[1];
   Real s1, c1;
   detail::sine_cosine(state.y[1], s1, c1);
   const Real lac1_0 = c1 * model.lc1_0;
   const Real lg1 = s1 * model.lgs1_2;
-  const Real lk0 = model.lc1_0 * (lww1 * s1);
-  const Real lu0 = lk0 + input.u[0] * model.lone0;
+  const Real lk0 = s1 * (model.lc1_0 * (state.z[1] * state.z[1]));
   const Real H1_0_0 = lac1_0 * lac1_0 - model.lM0_0;
-  const Real u1_0 = lu0 - lac1_0 * lg1;
+  const Real u1_0 = lac1_0 * lg1 - (lk0 + input.u[0] * model.lone0);
   const Real y_0 = u1_0 / H1_0_0;
-  const Real zdot_1 = lg1 + lac1_0 * y_0;
-  zdot[0] = -y_0;
+  const Real zdot_1 = lg1 - lac1_0 * y_0;
+  zdot[0] = y_0;
   zdot[1] = zdot_1;
 }
 
@@ -266,21 +263,18 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real h1b_x = c1 * model.mr_z;
   const Real h1b_y = s1 * model.mr_z;
   const Real adf0t_z = zdot[0] * model.hinge_m;
-  const Real aQp1 = h1b_y * Real(9.8) - h1b_x * zdot[0];
-  const Real zw_1 = state.z[1] * state.z[1];
-  const Real adf1_y = h1b_x * zdot[1] - h1b_y * zw_1;
   const Real adn1_z = zdot[1] * model.S_zz;
-  const Real af0_z = adf0t_z + adf1_y;
-  const Real aQ1_0 = aQp1 - adn1_z;
-  tau[0] = af0_z;
-  tau[1] = -aQ1_0;
+  const Real af0_z = h1b_y * (state.z[1] * state.z[1]) - (adf0t_z + h1b_x * zdot[1]);
+  const Real aQ1_0 = h1b_x * zdot[0] - (h1b_y * Real(9.8) - adn1_z);
+  tau[0] = -af0_z;
+  tau[1] = aQ1_0;
 }
 
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept {
   const Real c1 = detail::cosine(state.y[1]);
-  const Real lp1 = c1 * state.z[0] * model.mr_z + state.z[1] * model.lTh1;
-  const Real T = state.z[0] * state.z[0] * model.lTh0 + state.z[1] * lp1;
+  const Real lp1 = c1 * (state.z[0] * model.mr_z) + state.z[1] * model.lTh1;
+  const Real T = model.lTh0 * (state.z[0] * state.z[0]) + state.z[1] * lp1;
   return T;
 }
 

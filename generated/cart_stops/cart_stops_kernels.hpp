@@ -138,7 +138,6 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real expression_6 = state.z[0] * model.c4;
   const Real expression_7 = detail::hyperbolic_tangent(expression_6);
   const Real expression_8 = expression_5 * expression_7;
-  const Real push0_0 = expression_8 + input.u[0];
   const Real expression_9 = state.y[0] + model.reach;
   const Real expression_10 = expression_9 * model.stop_stiffness;
   const Real expression_11 = state.z[0] * model.stop_damping;
@@ -150,9 +149,8 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real expression_17 = expression_11 + expression_16;
   const Real expression_18 = detail::larger(expression_17, Real(0.0));
   const Real expression_19 = detail::where_negative(-expression_15, expression_18);
-  const Real expression_20 = expression_14 - expression_19;
-  const Real push0_0_2 = push0_0 + expression_20;
-  q[0] = -push0_0_2;
+  const Real push0_0 = expression_8 + (expression_14 + (input.u[0] - expression_19));
+  q[0] = -push0_0;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -166,7 +164,6 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real expression_6 = state.z[0] * model.c4;
   const Real expression_7 = detail::hyperbolic_tangent(expression_6);
   const Real expression_8 = expression_5 * expression_7;
-  const Real push0_0 = expression_8 + input.u[0];
   const Real expression_9 = state.y[0] + model.reach;
   const Real expression_10 = expression_9 * model.stop_stiffness;
   const Real expression_11 = state.z[0] * model.stop_damping;
@@ -178,9 +175,8 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real expression_17 = expression_11 + expression_16;
   const Real expression_18 = detail::larger(expression_17, Real(0.0));
   const Real expression_19 = detail::where_negative(-expression_15, expression_18);
-  const Real expression_20 = expression_14 - expression_19;
-  const Real push0_0_2 = push0_0 + expression_20;
-  const Real y_0 = push0_0_2 * model.invD_0;
+  const Real push0_0 = expression_8 + (expression_14 + (input.u[0] - expression_19));
+  const Real y_0 = push0_0 * model.invD_0;
   zdot[0] = y_0;
 }
 
@@ -206,16 +202,14 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real expression_17 = expression_11 + expression_16;
   const Real expression_18 = detail::larger(expression_17, Real(0.0));
   const Real expression_19 = detail::where_negative(-expression_15, expression_18);
-  const Real expression_20 = expression_14 - expression_19;
-  const Real push0_0 = expression_8 + expression_20;
   const Real adf0t_z = zdot[0] * model.cart_mass;
-  const Real tau_0_0 = push0_0 - adf0t_z;
+  const Real tau_0_0 = expression_8 + (expression_14 - (expression_19 + adf0t_z));
   tau[0] = -tau_0_0;
 }
 
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept {
-  const Real v0T = state.z[0] * state.z[0] * model.c9;
+  const Real v0T = model.c9 * (state.z[0] * state.z[0]);
   return v0T;
 }
 

@@ -311,16 +311,13 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[4]) noexcept 
   const Real las3_1 = Real(0.5) * s3_1;
   const Real s3_0 = (s1_0 * s2_1 - t20 * t21) * s3_2 - s2_0 * t32;
   const Real las3_0 = Real(0.5) * s3_0;
-  const Real lk0 = lww1 * las1_0 + lww2 * las2_0 - lww3 * las3_0;
-  const Real lk1 = lww0 * las1_0 - lww2 * las2_1 - lww3 * las3_1;
-  const Real lk2 = lww0 * las2_0 + lww1 * las2_1 - lww3 * las3_2;
-  const Real lk3 = lww0 * las3_0 - lww1 * las3_1 - lww2 * las3_2;
-  const Real lks3 = lk2 - lk3;
-  const Real lks2 = lk1 + lks3;
-  const Real lks1 = lk0 - lks2;
+  const Real lk3 = lww0 * las3_0 - (lww1 * las3_1 + lww2 * las3_2);
+  const Real lks3 = lk3 - (lww0 * las2_0 + (lww1 * las2_1 - lww3 * las3_2));
+  const Real lks2 = lks3 + (lww3 * las3_1 - (lww0 * las1_0 - lww2 * las2_1));
+  const Real lks1 = lks2 - (lww3 * las3_0 - (lww1 * las1_0 + lww2 * las2_0));
   k[0] = lks1;
-  k[1] = -lks2;
-  k[2] = -lks3;
+  k[1] = lks2;
+  k[2] = lks3;
   k[3] = lk3;
 }
 
@@ -383,48 +380,34 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real las3_0 = Real(1.5) * s3_0;
   const Real c3 = t23 * s3_0 - c0 * c3_0;
   const Real lg3 = c3 * Real(14.715000000000002);
-  const Real lk0 = lww1 * las1_0 + lww2 * las2_0 - lww3 * las3_0;
-  const Real lk1 = lww0 * las1_0 - lww2 * las2_1 - lww3 * las3_1;
-  const Real lk2 = lww0 * las2_0 + lww1 * las2_1 - lww3 * las3_2;
-  const Real lk3 = lww0 * las3_0 - lww1 * las3_1 - lww2 * las3_2;
-  const Real lu0 = lg0 - lk0;
-  const Real lu1 = lg1 - lk1;
-  const Real lu2 = lg2 - lk2;
-  const Real lu3 = lg3 - lk3;
+  const Real lu3 = lg3 - (lww0 * las3_0 - (lww1 * las3_1 + lww2 * las3_2));
   const Real H3_2_2 = lac3_2 * lac3_2 - Real(4.0);
   const Real H3_2_1 = lac2_1 + lac3_2 * lac3_1;
   const Real H3_2_0 = lac2_0 - lac3_2 * lac3_0;
-  const Real H3_1_1 = lac3_1 * lac3_1 - Real(7.0);
-  const Real H3_1_0 = lac1_0 - lac3_1 * lac3_0;
-  const Real H3_0_0 = lac3_0 * lac3_0 - Real(10.0);
-  const Real u3_2 = lu2 + lac3_2 * lu3;
-  const Real u3_1 = lu1 - lac3_1 * lu3;
-  const Real u3_0 = lu0 + lac3_0 * lu3;
+  const Real u3_2 = lac3_2 * lu3 + (lg2 - (lww0 * las2_0 + (lww1 * las2_1 - lww3 * las3_2)));
   const Real invD_2 = Real(1.0) / H3_2_2;
   const Real L_2_1 = H3_2_1 * invD_2;
-  const Real H2_1_1 = H3_1_1 - H3_2_1 * L_2_1;
-  const Real H2_1_0 = H3_1_0 - H3_2_0 * L_2_1;
+  const Real H2_1_1 = H3_2_1 * L_2_1 - (lac3_1 * lac3_1 - Real(7.0));
+  const Real H2_1_0 = H3_2_0 * L_2_1 - (lac1_0 - lac3_1 * lac3_0);
   const Real L_2_0 = H3_2_0 * invD_2;
-  const Real H2_0_0 = H3_0_0 - H3_2_0 * L_2_0;
-  const Real u2_1 = u3_1 + u3_2 * L_2_1;
-  const Real u2_0 = u3_0 + u3_2 * L_2_0;
+  const Real u2_1 = u3_2 * L_2_1 - (lac3_1 * lu3 - (lww3 * las3_1 + (lg1 - (lww0 * las1_0 - lww2 * las2_1))));
   const Real invD_1 = Real(1.0) / H2_1_1;
   const Real L_1_0 = H2_1_0 * invD_1;
-  const Real H1_0_0 = H2_0_0 - H2_1_0 * L_1_0;
-  const Real u1_0 = u2_0 - u2_1 * L_1_0;
+  const Real H1_0_0 = H2_1_0 * L_1_0 - (H3_2_0 * L_2_0 - (lac3_0 * lac3_0 - Real(10.0)));
+  const Real u1_0 = u2_1 * L_1_0 - (u3_2 * L_2_0 + (lac3_0 * lu3 + (lww3 * las3_0 - (lww2 * las2_0 - (lg0 -
+      lww1 * las1_0)))));
   const Real y_0 = u1_0 / H1_0_0;
   const Real y_1 = u2_1 * invD_1;
   const Real zdot_1 = y_1 - L_1_0 * y_0;
   const Real y_2 = u3_2 * invD_2;
-  const Real zdot_2 = y_2 + (L_2_1 * zdot_1 + L_2_0 * y_0);
-  const Real zdot_3 = lu3 - (lac3_2 * zdot_2 - lac3_1 * zdot_1 + lac3_0 * y_0);
+  const Real zdot_2 = L_2_1 * zdot_1 - (y_2 - L_2_0 * y_0);
   const Real zdotl_1 = y_0 + zdot_1;
   const Real zdotl_2 = zdot_1 - zdot_2;
-  const Real zdotl_3 = zdot_2 - zdot_3;
-  zdot[0] = y_0;
-  zdot[1] = -zdotl_1;
-  zdot[2] = zdotl_2;
-  zdot[3] = zdotl_3;
+  const Real zdotl_3 = lac3_2 * zdot_2 + (zdot_2 - (lac3_1 * zdot_1 - (lu3 + lac3_0 * y_0)));
+  zdot[0] = -y_0;
+  zdot[1] = zdotl_1;
+  zdot[2] = -zdotl_2;
+  zdot[3] = -zdotl_3;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -465,27 +448,20 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real las3_0 = Real(0.5) * s3_0;
   const Real c3 = t23 * s3_0 - c0 * c3_0;
   const Real lg3 = c3 * Real(4.905);
-  const Real lk0 = lww1 * las1_0 + lww2 * las2_0 - lww3 * las3_0;
-  const Real lk1 = lww0 * las1_0 - lww2 * las2_1 - lww3 * las3_1;
-  const Real lk2 = lww0 * las2_0 + lww1 * las2_1 - lww3 * las3_2;
-  const Real lk3 = lww0 * las3_0 - lww1 * las3_1 - lww2 * las3_2;
   const Real lx1 = zdot[0] + zdot[1];
   const Real lx2 = lx1 + zdot[2];
   const Real lx3 = lx2 + zdot[3];
-  const Real la0 = lk0 - (lg0 + zdot[0] * Real(3.3333333333333335) + lac1_0 * lx1 - lac2_0 * lx2 - lac3_0 *
-      lx3);
-  const Real la1 = lk1 - (lg1 - (lx1 * Real(2.3333333333333335) + lac1_0 * zdot[0]) - lac2_1 * lx2 + lac3_1 *
-      lx3);
-  const Real la2 = lk2 - (lg2 - (lx2 * Real(1.3333333333333333) - lac2_0 * zdot[0] + lac2_1 * lx1) - lac3_2 *
-      lx3);
-  const Real la3 = lk3 - (lg3 + (lx3 * Real(0.3333333333333333) - lac3_0 * zdot[0] + lac3_2 * lx2 - lac3_1 *
-      lx1));
-  const Real las3 = la2 - la3;
-  const Real las2 = la1 + las3;
-  const Real las1 = la0 - las2;
+  const Real la3 = lww0 * las3_0 + lac3_0 * zdot[0] - (lg3 + (lac3_2 * lx2 + (lww2 * las3_2 + lx3 *
+      Real(0.3333333333333333)) + (lww1 * las3_1 - lac3_1 * lx1)));
+  const Real las3 = la3 + (lac2_0 * zdot[0] - (lac3_2 * lx3 + (lww1 * las2_1 + lx2 *
+      Real(1.3333333333333333))) + (lg2 - (lww0 * las2_0 - (lww3 * las3_2 - lac2_1 * lx1))));
+  const Real las2 = las3 + (lww3 * las3_1 + lac3_1 * lx3 + (lg1 - lac2_1 * lx2 - (lww0 * las1_0 + lx1 *
+      Real(2.3333333333333335) - (lww2 * las2_1 - lac1_0 * zdot[0]))));
+  const Real las1 = las2 - (lg0 + zdot[0] * Real(3.3333333333333335) - (lww1 * las1_0 - lac1_0 * lx1) - (lww2
+      * las2_0 + lac2_0 * lx2) + (lww3 * las3_0 - lac3_0 * lx3));
   tau[0] = -las1;
-  tau[1] = las2;
-  tau[2] = las3;
+  tau[1] = -las2;
+  tau[2] = -las3;
   tau[3] = -la3;
 }
 
@@ -501,11 +477,11 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   detail::sine_cosine(state.y[3], t21, c3_2);
   const Real c3_1 = t13 * t21 - c2_1 * c3_2;
   const Real c3_0 = (c1_0 * t13 + c2_1 * t12) * t21 + c2_0 * c3_2;
-  const Real lp1 = w1_z * Real(1.1666666666666667) + state.z[0] * c1_0 * Real(2.5);
+  const Real lp1 = w1_z * Real(1.1666666666666667) + c1_0 * (state.z[0] * Real(2.5));
   const Real lp2 = w2_z * Real(0.6666666666666666) - (state.z[0] * c2_0 - w1_z * c2_1) * Real(1.5);
-  const Real lp3 = w3_z * Real(0.16666666666666666) + (w2_z * c3_2 - (state.z[0] * c3_0 + w1_z * c3_1)) *
+  const Real lp3 = w3_z * Real(0.16666666666666666) - (state.z[0] * c3_0 + (w1_z * c3_1 - w2_z * c3_2)) *
       Real(0.5);
-  const Real T = w3_z * lp3 + (w2_z * lp2 + (state.z[0] * state.z[0] * Real(1.6666666666666667) + w1_z *
+  const Real T = w3_z * lp3 + (w2_z * lp2 + (Real(1.6666666666666667) * (state.z[0] * state.z[0]) + w1_z *
       lp1));
   return T;
 }
@@ -520,11 +496,9 @@ Real potential_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real s3 = (s1 * t13 + t11 * t14) * t22 + s2 * t23;
   const Real h3b_y = s3 * Real(0.5);
   const Real h2b_y = s2 * Real(1.5);
-  const Real h2_y = h3b_y + h2b_y;
   const Real h1b_y = s1 * Real(2.5);
-  const Real h1_y = h2_y - h1b_y;
   const Real h0b_y = s0 * Real(3.5);
-  const Real h0_y = h1_y - h0b_y;
+  const Real h0_y = h3b_y + (h2b_y - (h1b_y + h0b_y));
   const Real V = h0_y * Real(9.81);
   return -V;
 }

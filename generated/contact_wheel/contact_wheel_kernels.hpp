@@ -276,28 +276,23 @@ void k_bar(const Model<Real>&, const State<Real>&, Real (&k)[2]) noexcept {
 template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Real (&q)[2]) noexcept {
   const Real stretch2 = state.y[1] + Real(0.4);
-  const Real push2_0 = stretch2 * Real(20000.0) + state.z[1] * Real(1500.0);
   const detail::Angle<Real> expression = detail::Angle<Real>(state.t) * model.expression_2;
-  Real expression_12, expression_2;
-  detail::sine_cosine(expression, expression_12, expression_2);
-  const Real expression_3 = expression_2 * Real(0.01) - Real(0.31);
-  const Real wheelx1p_y = state.y[1] + state.y[0];
-  const Real expression_4 = expression_3 + wheelx1p_y;
-  const Real expression_5 = expression_4 * expression_4;
-  const Real expression_6 = expression_5 + Real(1e-12);
-  const Real expression_7 = detail::square_root(expression_6);
-  const Real expression_8 = expression_4 - expression_7;
-  const Real expression_9 = expression_8 * model.expression_3;
-  const Real expression_10 = expression_4 / expression_7;
-  const Real expression_11 = expression_10 - Real(1.0);
-  const Real wheelv1_z = state.z[1] + state.z[0];
-  const Real expression_13 = expression_12 * model.expression_4;
-  const Real expression_14 = wheelv1_z - expression_13;
-  const Real expression_15 = expression_11 * expression_14 * model.expression_5;
-  const Real expression_16 = expression_9 - expression_15;
-  const Real load_2_0 = push2_0 + expression_16;
-  const Real q_0 = expression_16 + Real(3237.3);
-  const Real q_1 = load_2_0 + Real(294.3);
+  Real expression_11, expression_2;
+  detail::sine_cosine(expression, expression_11, expression_2);
+  const Real expression_3 = expression_2 * Real(0.01) - Real(0.31) + (state.y[1] + state.y[0]);
+  const Real expression_4 = expression_3 * expression_3;
+  const Real expression_5 = expression_4 + Real(1e-12);
+  const Real expression_6 = detail::square_root(expression_5);
+  const Real expression_7 = expression_3 - expression_6;
+  const Real expression_8 = expression_7 * model.expression_3;
+  const Real expression_9 = expression_3 / expression_6;
+  const Real expression_10 = expression_9 - Real(1.0);
+  const Real expression_12 = expression_11 * model.expression_4;
+  const Real expression_13 = expression_12 - (state.z[1] + state.z[0]);
+  const Real expression_14 = expression_10 * (expression_13 * model.expression_5);
+  const Real expression_15 = expression_8 + expression_14;
+  const Real q_0 = expression_15 + Real(3237.3);
+  const Real q_1 = expression_15 + (stretch2 * Real(20000.0) + (state.z[1] * Real(1500.0) + Real(294.3)));
   q[0] = q_0;
   q[1] = q_1;
 }
@@ -308,25 +303,20 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real stretch2 = state.y[1] + Real(0.4);
   const Real push2_0 = stretch2 * Real(20000.0) + state.z[1] * Real(1500.0);
   const detail::Angle<Real> expression = detail::Angle<Real>(state.t) * model.expression_2;
-  Real expression_12, expression_2;
-  detail::sine_cosine(expression, expression_12, expression_2);
-  const Real expression_3 = expression_2 * Real(0.01) - Real(0.31);
-  const Real wheelx1p_y = state.y[1] + state.y[0];
-  const Real expression_4 = expression_3 + wheelx1p_y;
-  const Real expression_5 = expression_4 * expression_4;
-  const Real expression_6 = expression_5 + Real(1e-12);
-  const Real expression_7 = detail::square_root(expression_6);
-  const Real expression_8 = expression_4 - expression_7;
-  const Real expression_9 = expression_8 * model.expression_3;
-  const Real expression_10 = expression_4 / expression_7;
-  const Real expression_11 = expression_10 - Real(1.0);
-  const Real wheelv1_z = state.z[1] + state.z[0];
-  const Real expression_13 = expression_12 * model.expression_4;
-  const Real expression_14 = wheelv1_z - expression_13;
-  const Real expression_15 = expression_11 * expression_14 * model.expression_5;
-  const Real expression_16 = expression_9 - expression_15;
-  const Real bQ2_0 = expression_16 + Real(294.3);
-  const Real b_1 = push2_0 + bQ2_0;
+  Real expression_11, expression_2;
+  detail::sine_cosine(expression, expression_11, expression_2);
+  const Real expression_3 = expression_2 * Real(0.01) - Real(0.31) + (state.y[1] + state.y[0]);
+  const Real expression_4 = expression_3 * expression_3;
+  const Real expression_5 = expression_4 + Real(1e-12);
+  const Real expression_6 = detail::square_root(expression_5);
+  const Real expression_7 = expression_3 - expression_6;
+  const Real expression_8 = expression_7 * model.expression_3;
+  const Real expression_9 = expression_3 / expression_6;
+  const Real expression_10 = expression_9 - Real(1.0);
+  const Real expression_12 = expression_11 * model.expression_4;
+  const Real expression_13 = expression_12 - (state.z[1] + state.z[0]);
+  const Real expression_14 = expression_10 * (expression_13 * model.expression_5);
+  const Real b_1 = expression_14 + (expression_8 + (push2_0 + Real(294.3)));
   const Real y_0 = push2_0 * Real(0.0033333333333333335) - Real(9.81);
   const Real y_1 = b_1 * Real(0.03333333333333333);
   const Real zdot_1 = y_0 + y_1;
@@ -338,32 +328,27 @@ template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[2], Real
     (&tau)[2]) noexcept {
   const Real stretch2 = state.y[1] + Real(0.4);
-  const Real push2_0 = stretch2 * Real(20000.0) + state.z[1] * Real(1500.0);
   const detail::Angle<Real> expression = detail::Angle<Real>(state.t) * model.expression_2;
-  Real expression_12, expression_2;
-  detail::sine_cosine(expression, expression_12, expression_2);
-  const Real expression_3 = expression_2 * Real(0.01) - Real(0.31);
-  const Real wheelx1p_y = state.y[1] + state.y[0];
-  const Real expression_4 = expression_3 + wheelx1p_y;
-  const Real expression_5 = expression_4 * expression_4;
-  const Real expression_6 = expression_5 + Real(1e-12);
-  const Real expression_7 = detail::square_root(expression_6);
-  const Real expression_8 = expression_4 - expression_7;
-  const Real expression_9 = expression_8 * model.expression_3;
-  const Real expression_10 = expression_4 / expression_7;
-  const Real expression_11 = expression_10 - Real(1.0);
-  const Real wheelv1_z = state.z[1] + state.z[0];
-  const Real expression_13 = expression_12 * model.expression_4;
-  const Real expression_14 = wheelv1_z - expression_13;
-  const Real expression_15 = expression_11 * expression_14 * model.expression_5;
-  const Real expression_16 = expression_9 - expression_15;
+  Real expression_11, expression_2;
+  detail::sine_cosine(expression, expression_11, expression_2);
+  const Real expression_3 = expression_2 * Real(0.01) - Real(0.31) + (state.y[1] + state.y[0]);
+  const Real expression_4 = expression_3 * expression_3;
+  const Real expression_5 = expression_4 + Real(1e-12);
+  const Real expression_6 = detail::square_root(expression_5);
+  const Real expression_7 = expression_3 - expression_6;
+  const Real expression_8 = expression_7 * model.expression_3;
+  const Real expression_9 = expression_3 / expression_6;
+  const Real expression_10 = expression_9 - Real(1.0);
+  const Real expression_12 = expression_11 * model.expression_4;
+  const Real expression_13 = expression_12 - (state.z[1] + state.z[0]);
+  const Real expression_14 = expression_10 * (expression_13 * model.expression_5);
   const Real ala1L_z = zdot[0] + Real(9.81);
   const Real ala2L_z = ala1L_z + zdot[1];
   const Real aL1f_z = ala1L_z * Real(300.0);
   const Real aL2f_z = ala2L_z * Real(30.0);
-  const Real ae2f_z = expression_16 + aL2f_z;
+  const Real ae2f_z = expression_14 + (expression_8 + aL2f_z);
   const Real af2c_z = aL1f_z + ae2f_z;
-  const Real tau_2_0 = push2_0 + ae2f_z;
+  const Real tau_2_0 = ae2f_z + (stretch2 * Real(20000.0) + state.z[1] * Real(1500.0));
   tau[0] = af2c_z;
   tau[1] = tau_2_0;
 }
@@ -371,7 +356,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept {
   const Real v2P_z = state.z[1] * Real(30.0);
-  const Real T2 = state.z[0] * v2P_z + (state.z[0] * state.z[0] * Real(330.0) + (state.z[1] * v2P_z +
+  const Real T2 = state.z[0] * v2P_z + (state.z[1] * v2P_z + (Real(330.0) * (state.z[0] * state.z[0]) +
       model.c5)) * Real(0.5);
   return T2;
 }
@@ -382,7 +367,7 @@ Real potential_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real h1r_y = state.y[0] * Real(330.0);
   const Real h1c_y = h2r_z + h1r_y;
   const Real stretch2 = state.y[1] + Real(0.4);
-  const Real V = stretch2 * stretch2 * Real(10000.0) + h1c_y * Real(9.81);
+  const Real V = stretch2 * (stretch2 * Real(10000.0)) + h1c_y * Real(9.81);
   return V;
 }
 

@@ -290,14 +290,14 @@ void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[4]
   const Real half_1_0 = state.z[0] * Real(0.5);
   const Real half_1_1 = Real(0.5) * state.z[1];
   const Real half_1_2 = Real(0.5) * state.z[2];
-  const Real qdot_1_0 = half_1_0 * state.y[1] + half_1_1 * state.y[2] + half_1_2 * state.y[3];
-  const Real qdot_1_1 = half_1_0 * state.y[0] + half_1_2 * state.y[2] - half_1_1 * state.y[3];
-  const Real qdot_1_2 = half_1_1 * state.y[0] - half_1_2 * state.y[1] + half_1_0 * state.y[3];
-  const Real qdot_1_3 = half_1_2 * state.y[0] + half_1_1 * state.y[1] - half_1_0 * state.y[2];
+  const Real qdot_1_0 = half_1_2 * state.y[3] + (half_1_0 * state.y[1] + half_1_1 * state.y[2]);
+  const Real qdot_1_1 = half_1_1 * state.y[3] - (half_1_0 * state.y[0] + half_1_2 * state.y[2]);
+  const Real qdot_1_2 = half_1_0 * state.y[3] + (half_1_1 * state.y[0] - half_1_2 * state.y[1]);
+  const Real qdot_1_3 = half_1_0 * state.y[2] - (half_1_2 * state.y[0] + half_1_1 * state.y[1]);
   ydot[0] = -qdot_1_0;
-  ydot[1] = qdot_1_1;
+  ydot[1] = -qdot_1_1;
   ydot[2] = qdot_1_2;
-  ydot[3] = qdot_1_3;
+  ydot[3] = -qdot_1_3;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -323,16 +323,11 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[3]) noe
   const Real q103 = q1d3 * state.y[0];
   const Real q1r0_x = q133 + (q122 - Real(1.0));
   const Real q1r0_y = q112 - q103;
-  const Real ka1_x = derivative * q1r0_x;
-  const Real ka1_y = derivative * q1r0_y;
-  const Real kQp1_x = ka1_y * model.mr_z;
-  const Real kQp1_y = ka1_x * model.mr_z;
-  const Real kww10 = state.z[1] * state.z[2];
-  const Real kww11 = state.z[2] * state.z[0];
-  const Real kww12 = state.z[1] * state.z[0];
-  const Real kdn1_x = kww10 * model.kdS10;
-  const Real kdn1_y = kww11 * model.kdS11;
-  const Real kdn1_z = kww12 * Real(15.0);
+  const Real kQp1_x = derivative * (q1r0_y * model.mr_z);
+  const Real kQp1_y = derivative * (q1r0_x * model.mr_z);
+  const Real kdn1_x = model.kdS10 * (state.z[1] * state.z[2]);
+  const Real kdn1_y = model.kdS11 * (state.z[2] * state.z[0]);
+  const Real kdn1_z = Real(15.0) * (state.z[1] * state.z[0]);
   const Real kQ1_0 = kQp1_x + kdn1_x;
   const Real kQ1_1 = kQp1_y - kdn1_y;
   k[0] = kQ1_0;
@@ -345,8 +340,8 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real q1d3 = state.y[3] * Real(2.0);
   const Real q113 = state.y[1] * q1d3;
   const Real q123 = state.y[2] * q1d3;
-  const Real q101 = Real(2.0) * (state.y[1] * state.y[0]);
-  const Real q102 = Real(2.0) * (state.y[2] * state.y[0]);
+  const Real q101 = state.y[0] * (state.y[1] * Real(2.0));
+  const Real q102 = state.y[0] * (state.y[2] * Real(2.0));
   const Real q1r2_x = q113 - q102;
   const Real q1r2_y = q123 + q101;
   const Real push1_0 = state.z[0] * Real(20.0);
@@ -372,7 +367,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real q112 = state.y[1] * q1d2;
   const Real q113 = state.y[1] * q1d3;
   const Real q123 = state.y[2] * q1d3;
-  const Real q101 = Real(2.0) * (state.y[1] * state.y[0]);
+  const Real q101 = state.y[0] * (state.y[1] * Real(2.0));
   const Real q102 = q1d2 * state.y[0];
   const Real q103 = q1d3 * state.y[0];
   const Real q1r0_x = q133 + (q122 - Real(1.0));
@@ -386,22 +381,17 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real ba1_y = q1r2_y * Real(9.81) - derivative * q1r0_y;
   const Real bQp1_x = ba1_y * model.mr_z;
   const Real bQp1_y = ba1_x * model.mr_z;
-  const Real bww10 = state.z[1] * state.z[2];
-  const Real bww11 = state.z[0] * state.z[2];
-  const Real bww12 = state.z[0] * state.z[1];
-  const Real bdn1_x = bww10 * model.kdS10;
-  const Real bdn1_y = bww11 * model.kdS11;
-  const Real bdn1_z = bww12 * Real(15.0);
-  const Real bQ1_0 = bQp1_x - bdn1_x;
-  const Real bQ1_1 = bQp1_y - bdn1_y;
-  const Real b_0 = push1_0 + bQ1_0;
-  const Real b_1 = push1_1 - bQ1_1;
+  const Real bdn1_x = model.kdS10 * (state.z[1] * state.z[2]);
+  const Real bdn1_y = model.kdS11 * (state.z[0] * state.z[2]);
+  const Real bdn1_z = Real(15.0) * (state.z[0] * state.z[1]);
+  const Real b_0 = bQp1_x + (push1_0 - bdn1_x);
+  const Real b_1 = bQp1_y - (push1_1 + bdn1_y);
   const Real b_2 = push1_2 - bdn1_z;
   const Real y_0 = b_0 * model.invD_0;
   const Real y_1 = b_1 * model.invD_1;
   const Real y_2 = b_2 * Real(0.011111111111111112);
   zdot[0] = -y_0;
-  zdot[1] = -y_1;
+  zdot[1] = y_1;
   zdot[2] = -y_2;
 }
 
@@ -418,7 +408,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real q112 = state.y[1] * q1d2;
   const Real q113 = state.y[1] * q1d3;
   const Real q123 = state.y[2] * q1d3;
-  const Real q101 = Real(2.0) * (state.y[1] * state.y[0]);
+  const Real q101 = state.y[0] * (state.y[1] * Real(2.0));
   const Real q102 = q1d2 * state.y[0];
   const Real q103 = q1d3 * state.y[0];
   const Real q1r0_x = q133 + (q122 - Real(1.0));
@@ -432,20 +422,12 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real aa1_y = q1r2_y * Real(9.81) - derivative * q1r0_y;
   const Real aQp1_x = aa1_y * model.mr_z;
   const Real aQp1_y = aa1_x * model.mr_z;
-  const Real aww10 = state.z[1] * state.z[2];
-  const Real aww11 = state.z[0] * state.z[2];
-  const Real aww12 = state.z[0] * state.z[1];
-  const Real adn1_x = zdot[0] * model.Jx1 - aww10 * model.kdS10;
-  const Real adn1_y = zdot[1] * model.Jy1 + aww11 * model.kdS11;
-  const Real adn1_z = zdot[2] * Real(90.0) - aww12 * Real(15.0);
-  const Real aQ1_0 = aQp1_x + adn1_x;
-  const Real aQ1_1 = aQp1_y - adn1_y;
-  const Real tau_1_0 = push1_0 + aQ1_0;
-  const Real tau_1_1 = push1_1 - aQ1_1;
-  const Real tau_1_2 = push1_2 + adn1_z;
+  const Real tau_1_0 = aQp1_x - (model.kdS10 * (state.z[1] * state.z[2]) - (push1_0 + zdot[0] * model.Jx1));
+  const Real tau_1_1 = aQp1_y - (model.kdS11 * (state.z[0] * state.z[2]) + (push1_1 + zdot[1] * model.Jy1));
+  const Real tau_1_2 = Real(15.0) * (state.z[0] * state.z[1]) - (push1_2 + zdot[2] * Real(90.0));
   tau[0] = tau_1_0;
-  tau[1] = tau_1_1;
-  tau[2] = tau_1_2;
+  tau[1] = -tau_1_1;
+  tau[2] = -tau_1_2;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -459,13 +441,11 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real q133 = state.y[3] * q1d3;
   const Real q112 = q1d2 * state.y[1];
   const Real q103 = q1d3 * state.y[0];
-  const Real q1r0_x = q122 + q133 - Real(1.0);
+  const Real q1r0_x = q133 + (q122 - Real(1.0));
   const Real q1r0_y = q112 - q103;
-  const Real v1_x = derivative * q1r0_x;
-  const Real v1_y = derivative * q1r0_y;
-  const Real T1 = (state.z[1] * state.z[1] * model.Jy1 + (state.z[0] * state.z[0] * model.Jx1 + (derivative *
-      derivative * model.suspension_m + state.z[2] * state.z[2] * Real(90.0)))) * Real(0.5) + (v1_x *
-      state.z[1] + v1_y * state.z[0]) * model.mr_z;
+  const Real T1 = (derivative * (derivative * model.suspension_m) + (Real(90.0) * (state.z[2] * state.z[2]) +
+      (model.Jx1 * (state.z[0] * state.z[0]) + model.Jy1 * (state.z[1] * state.z[1])))) * Real(0.5) +
+      (derivative * (q1r0_x * state.z[1]) + derivative * (q1r0_y * state.z[0])) * model.mr_z;
   return T1;
 }
 
@@ -499,7 +479,7 @@ void outputs(const Model<Real>& model, const State<Real>& state, const Input<Rea
   const Real q101 = q1d1 * state.y[0];
   const Real q102 = q1d2 * state.y[0];
   const Real q103 = q1d3 * state.y[0];
-  const Real q1r0_x = q122 + q133 - Real(1.0);
+  const Real q1r0_x = q133 + (q122 - Real(1.0));
   const Real q1r0_y = q112 - q103;
   const Real q1r0_z = q113 + q102;
   const Real q1r1_x = q112 + q103;
@@ -518,21 +498,20 @@ void outputs(const Model<Real>& model, const State<Real>& state, const Input<Rea
   const Real bQp1_y = ba1_x * model.mr_z;
   const Real bww10 = state.z[1] * state.z[2];
   const Real bww11 = state.z[0] * state.z[2];
-  const Real bww12 = state.z[0] * state.z[1];
   const Real bdn1_x = bww10 * model.kdS10;
   const Real bdn1_y = bww11 * model.kdS11;
-  const Real bdn1_z = bww12 * Real(15.0);
-  const Real b_0 = bdn1_x - (push1_0 + bQp1_x);
-  const Real b_1 = bdn1_y + (push1_1 - bQp1_y);
+  const Real bdn1_z = Real(15.0) * (state.z[0] * state.z[1]);
+  const Real b_0 = bQp1_x + (push1_0 - bdn1_x);
+  const Real b_1 = bQp1_y - (push1_1 + bdn1_y);
   const Real b_2 = push1_2 - bdn1_z;
   const Real y_0 = b_0 * model.invD_0;
   const Real y_1 = b_1 * model.invD_1;
   const Real drivedf0t_z = derivative_2 * model.suspension_m;
   const Real driveuh1 = state.z[2] * model.mr_z;
-  const Real drivedf1_x = state.z[0] * driveuh1 - model.mr_z * y_1;
-  const Real drivedf1_y = state.z[1] * driveuh1 - model.mr_z * y_0;
+  const Real drivedf1_x = state.z[0] * driveuh1 + model.mr_z * y_1;
+  const Real drivedf1_y = state.z[1] * driveuh1 + model.mr_z * y_0;
   const Real drivedf1_z = model.mr_z * (state.z[0] * state.z[0] + state.z[1] * state.z[1]);
-  const Real drivef0_z = q1r0_z * drivedf1_z - (q1r0_y * drivedf1_y + (drivedf0t_z - q1r0_x * drivedf1_x));
+  const Real drivef0_z = q1r0_y * drivedf1_y - (q1r0_x * drivedf1_x - (drivedf0t_z - q1r0_z * drivedf1_z));
   const Real hookx1p_x = q1r1_z * model.rope;
   const Real hookx1p_y = q1r2_z * model.rope - Real(0.3);
   const Real hookx1p_z = q1r0_z * model.rope;
@@ -541,16 +520,16 @@ void outputs(const Model<Real>& model, const State<Real>& state, const Input<Rea
   const Real hookv1_y = state.z[0] * model.rope;
   const Real hookv1pp_x = q1r1_x * hookv1_x + q1r1_y * hookv1_y;
   const Real hookv1pp_y = q1r2_x * hookv1_x - q1r2_y * hookv1_y;
-  const Real hookv0_z = q1r0_y * hookv1_y + (derivative + q1r0_x * hookv1_x);
+  const Real hookv0_z = derivative + (q1r0_x * hookv1_x + q1r0_y * hookv1_y);
   const Real reactla1t_z = q1r2_z * Real(9.81) + derivative_2 * q1r0_z;
   const Real react1b1Sw_z = state.z[2] * model.S_zz;
   const Real react1b1F_x = drivedf1_x - ba1_x * model.load_mass;
   const Real react1b1F_y = drivedf1_y - ba1_y * model.load_mass;
   const Real react1b1F_z = drivedf1_z - reactla1t_z * model.load_mass;
-  const Real react1b1N_x = y_0 * model.c17 - (bww10 * Real(52.5) + (bQp1_x - state.z[1] * react1b1Sw_z));
-  const Real react1b1N_y = y_1 * model.c18 - (bww11 * Real(37.5) + (bQp1_y - state.z[0] * react1b1Sw_z));
+  const Real react1b1N_x = y_0 * model.c17 + (bQp1_x - (state.z[1] * react1b1Sw_z - bww10 * Real(52.5)));
+  const Real react1b1N_y = y_1 * model.c18 + (bQp1_y - (state.z[0] * react1b1Sw_z - bww11 * Real(37.5)));
   const Real react1b1N_z = bdn1_z - b_2 * model.c19;
-  result.drive_force = drivef0_z;
+  result.drive_force = -drivef0_z;
   result.hook_pose.position[0] = hookx0_x;
   result.hook_pose.position[1] = -hookx1p_x;
   result.hook_pose.position[2] = hookx1p_y;
@@ -572,8 +551,8 @@ void outputs(const Model<Real>& model, const State<Real>& state, const Input<Rea
   result.suspension_force.force[0] = -react1b1F_x;
   result.suspension_force.force[1] = -react1b1F_y;
   result.suspension_force.force[2] = react1b1F_z;
-  result.suspension_force.moment[0] = -react1b1N_x;
-  result.suspension_force.moment[1] = react1b1N_y;
+  result.suspension_force.moment[0] = react1b1N_x;
+  result.suspension_force.moment[1] = -react1b1N_y;
   result.suspension_force.moment[2] = -react1b1N_z;
 }
 

@@ -228,9 +228,9 @@ template <class Real> JOURDAIN_FUNCTION
 void position_rate(const Model<Real>& model, const State<Real>& state, Real (&ydot)[5]) noexcept {
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
-  const Real t5 = state.z[0] + state.z[1];
-  ydot[0] = c2 * t5 * model.c0;
-  ydot[1] = model.c0 * (s2 * t5);
+  const Real t7 = (state.z[0] + state.z[1]) * model.c0;
+  ydot[0] = c2 * t7;
+  ydot[1] = s2 * t7;
   ydot[2] = -((state.z[0] - state.z[1]) * model.c1);
   ydot[3] = state.z[0];
   ydot[4] = state.z[1];
@@ -254,14 +254,15 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[2]) noe
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
   const Real t8 = (state.z[0] - state.z[1]) * model.c1;
-  const Real t11 = (state.z[0] + state.z[1]) * t8 * model.c0;
-  const Real zw_2 = t8 * t8;
-  const Real kdf2_x = c2 * zw_2 * model.mr_x;
-  const Real kdf2_y = model.mr_x * (s2 * zw_2);
-  const Real t28 = model.c0 * (c2 * (kdf2_x - s2 * t11 * Real(9.0)) + s2 * (kdf2_y + c2 * t11 * Real(9.0)));
-  const Real t30 = t11 * model.c2;
-  k[0] = t28 - t30;
-  k[1] = t28 + t30;
+  const Real t11 = t8 * ((state.z[0] + state.z[1]) * model.c0);
+  const Real t14 = t8 * (t8 * model.mr_x);
+  const Real kdf2_x = c2 * t14;
+  const Real kdf2_y = s2 * t14;
+  const Real t18 = t11 * Real(9.0);
+  const Real t26 = model.c0 * (c2 * (kdf2_x - s2 * t18) + s2 * (kdf2_y + c2 * t18));
+  const Real t28 = t11 * model.c2;
+  k[0] = t26 - t28;
+  k[1] = t26 + t28;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -298,9 +299,9 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t46 = t4 * rf0_z - t5 * rf1_z;
   const Real t48 = t12 * model.c8;
   const Real t50 = t46 - (input.u[1] + t48);
-  const Real t55 = (t46 - (input.u[0] - (t48 - t32 * t50))) / (t29 - t27 * t32);
-  zdot[0] = -t55;
-  zdot[1] = -(t31 * t50 - t32 * t55);
+  const Real t55 = (t32 * t50 - (t46 - (input.u[0] - t48))) / (t29 - t27 * t32);
+  zdot[0] = t55;
+  zdot[1] = -(t31 * t50 + t32 * t55);
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -311,7 +312,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t4 = c2 * model.c0;
   const Real t5 = s2 * model.c0;
   const Real t11 = (state.z[0] - state.z[1]) * model.c1;
-  const Real t13 = model.c0 * ((state.z[0] + state.z[1]) * t11);
+  const Real t13 = t11 * (model.c0 * (state.z[0] + state.z[1]));
   const Real t18 = zdot[0] + zdot[1];
   const Real t20 = s2 * t13 + t4 * t18;
   const Real t22 = c2 * t13 - t5 * t18;
@@ -324,24 +325,24 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real adn2_z = t24 * model.S2b_zz;
   const Real adn3_z = zdot[0] * Real(0.0025);
   const Real adn4_z = zdot[1] * Real(0.0025);
-  const Real af1_z = t24 * h2b_x + (adf1t_z + h2b_y * zw_2);
-  const Real af0_z = t24 * h2b_y + (adf0t_z - h2b_x * zw_2);
+  const Real af1_z = adf1t_z + (t24 * h2b_x + h2b_y * zw_2);
+  const Real af0_z = adf0t_z + (t24 * h2b_y - h2b_x * zw_2);
   const Real aQ2_0 = t22 * h2b_x + (t20 * h2b_y + adn2_z);
   const Real t51 = t4 * af0_z - t5 * af1_z;
   const Real t52 = model.c1 * aQ2_0;
-  tau[0] = t51 + (adn3_z + t52);
-  tau[1] = t51 + (adn4_z - t52);
+  tau[0] = t52 + (adn3_z + t51);
+  tau[1] = -(t52 - (adn4_z + t51));
 }
 
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept {
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
-  const Real t5 = state.z[0] + state.z[1];
-  const Real t8 = c2 * t5 * model.c0;
-  const Real t10 = model.c0 * (s2 * t5);
-  const Real t13 = (state.z[0] - state.z[1]) * model.c1;
-  const Real T4 = ((t8 * t8 + t10 * t10) * Real(9.0) + (t13 * t13 * model.S2b_zz + (state.z[0] * state.z[0] +
+  const Real t7 = (state.z[0] + state.z[1]) * model.c0;
+  const Real t8 = c2 * t7;
+  const Real t9 = s2 * t7;
+  const Real t12 = (state.z[0] - state.z[1]) * model.c1;
+  const Real T4 = ((t8 * t8 + t9 * t9) * Real(9.0) + (t12 * (t12 * model.S2b_zz) + (state.z[0] * state.z[0] +
       state.z[1] * state.z[1]) * Real(0.0025))) * Real(0.5);
   return T4;
 }
@@ -379,8 +380,8 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t9 = t6 * model.c1;
   const Real t10 = t4 * model.c1;
   const Real t13 = state.z[0] + state.z[1];
-  const Real t17 = model.c1 * (state.z[0] - state.z[1]);
-  const Real t21 = t17 * (c2 * (t9 * t13) + s2 * (t10 * t13));
+  const Real t15 = model.c1 * (state.z[0] - state.z[1]);
+  const Real t21 = t15 * (t9 * (c2 * t13) + t10 * (s2 * t13));
   const Real t22 = s2 * t21;
   const Real t23 = c2 * t21;
   const Real h2b_x = c2 * model.mr_x;
@@ -393,7 +394,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real rdf0t_z = t22 * Real(9.0);
   const Real rdf1t_z = t23 * Real(9.0);
   const Real rQp2 = t21 * model.mr_x;
-  const Real zw_2 = t17 * t17;
+  const Real zw_2 = t15 * t15;
   const Real rdf2_x = h2b_x * zw_2;
   const Real rdf2_y = h2b_y * zw_2;
   const Real rf1_z = rdf1t_z + rdf2_y;
@@ -401,17 +402,17 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t58 = t9 * rf0_z - t10 * rf1_z;
   const Real t59 = model.c1 * rQp2;
   const Real t61 = t58 - (input.u[1] + t59);
-  const Real t66 = (t58 - (input.u[0] - (t59 - t43 * t61))) / (t40 - t38 * t43);
-  const Real t69 = t42 * t61 - t43 * t66;
-  const Real t70 = t66 + t69;
-  const Real t76 = model.c1 * (t66 - t69);
-  const Real rdf0t_z_2 = Real(9.0) * (t22 - t9 * t70);
-  const Real rdf1t_z_2 = Real(9.0) * (t23 + t10 * t70);
+  const Real t66 = (t43 * t61 - (t58 - (input.u[0] - t59))) / (t40 - t38 * t43);
+  const Real t69 = t42 * t61 + t43 * t66;
+  const Real t70 = t66 - t69;
+  const Real t76 = model.c1 * (t66 + t69);
+  const Real rdf0t_z_2 = Real(9.0) * (t22 + t9 * t70);
+  const Real rdf1t_z_2 = Real(9.0) * (t23 - t10 * t70);
   const Real rdn2_z = t76 * model.S2b_zz;
-  const Real rf1_z_2 = rdf1t_z_2 + (rdf2_y - h2b_x * t76);
-  const Real rf0_z_2 = rdf0t_z_2 - (rdf2_x + h2b_y * t76);
+  const Real rf1_z_2 = rdf1t_z_2 + (rdf2_y + h2b_x * t76);
+  const Real rf0_z_2 = rdf0t_z_2 - (rdf2_x - h2b_y * t76);
   const Real t94 = t6 * rf0_z_2 - t4 * rf1_z_2;
-  const Real t95 = rQp2 - rdn2_z;
+  const Real t95 = rQp2 + rdn2_z;
   lambda[0] = ((t4 + t4) * rf0_z_2 + (t6 + t6) * rf1_z_2) * model.c12;
   lambda[1] = -(model.c12 * (t94 + t95));
   lambda[2] = -(model.c12 * (t94 - t95));

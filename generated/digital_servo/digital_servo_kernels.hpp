@@ -329,8 +329,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real c0 = detail::cosine(state.y[0]);
   const Real aQp0 = c0 * model.c1;
   const Real adn0_z = zdot[0] * model.S_xx;
-  const Real aQ0_0 = aQp0 + adn0_z;
-  const Real tau_0_0 = aQ0_0 - state.z[5];
+  const Real tau_0_0 = aQp0 + (adn0_z - state.z[5]);
   tau[0] = tau_0_0;
   tau[1] = zdot[1];
   tau[2] = zdot[2];
@@ -341,7 +340,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
 
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept {
-  const Real v0T = state.z[0] * state.z[0] * model.c3;
+  const Real v0T = model.c3 * (state.z[0] * state.z[0]);
   return v0T;
 }
 
@@ -381,7 +380,7 @@ void sample(const Model<Real>& model, State<Real>& state, const Input<Real>& inp
   const Real expression_16 = expression_15 * model.P;
   const Real expression_17 = expression_5 - state.z[1];
   const Real expression_18 = expression_17 * model.c6;
-  const Real expression_19 = state.z[3] - (expression_16 + expression_18);
+  const Real expression_19 = expression_18 + (expression_16 - state.z[3]);
   const Real expression_20 = detail::absolute(expression_19);
   const Real expression_21 = expression_20 - model.limit;
   const Real expression_22 = expression_15 * model.expression;
@@ -392,7 +391,7 @@ void sample(const Model<Real>& model, State<Real>& state, const Input<Real>& inp
   const Real expression_27 = detail::where_negative(t11, expression_26);
   const Real expression_28 = detail::where_not_negative(t11, state.z[3]);
   const Real expression_29 = expression_27 + expression_28;
-  const Real expression_30 = detail::smaller(expression_19, model.limit);
+  const Real expression_30 = detail::smaller(-expression_19, model.limit);
   const Real expression_31 = detail::larger(expression_30, -model.limit);
   const Real expression_32 = detail::where_negative(t11, expression_31);
   const Real expression_33 = detail::where_not_negative(t11, state.z[4]);

@@ -275,12 +275,10 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[2
 template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[2]) noexcept {
   const Real w1_z = state.z[0] + state.z[1];
-  const Real lww0 = state.z[0] * state.z[0];
-  const Real lww1 = w1_z * w1_z;
   const Real s1_0 = detail::sine(state.y[1]);
   const Real las1_0 = s1_0 * model.lc1_0;
-  const Real lk0 = lww1 * las1_0;
-  const Real lk1 = lww0 * las1_0;
+  const Real lk0 = las1_0 * (w1_z * w1_z);
+  const Real lk1 = las1_0 * (state.z[0] * state.z[0]);
   const Real lks1 = lk0 - lk1;
   k[0] = lks1;
   k[1] = -lk1;
@@ -301,23 +299,21 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Real (&zdot)[2])
     noexcept {
-  Real s0, t15, s1_0, c1_0;
-  detail::sine_cosine2(state.y[0], s0, t15, state.y[1], s1_0, c1_0);
+  Real s0, t13, s1_0, c1_0;
+  detail::sine_cosine2(state.y[0], s0, t13, state.y[1], s1_0, c1_0);
   const Real w1_z = state.z[0] + state.z[1];
-  const Real lww0 = state.z[0] * state.z[0];
-  const Real lww1 = w1_z * w1_z;
   const Real lg0 = s0 * model.lgs0_2;
   const Real lac1_0 = c1_0 * model.lc1_0_2;
   const Real las1_0 = s1_0 * model.lc1_0_2;
-  const Real s1 = s1_0 * t15 + s0 * c1_0;
+  const Real s1 = s1_0 * t13 + s0 * c1_0;
   const Real lg1 = s1 * model.lgs1_2;
-  const Real lk0 = lww1 * las1_0;
-  const Real lk1 = lww0 * las1_0;
+  const Real lk0 = las1_0 * (w1_z * w1_z);
+  const Real lk1 = las1_0 * (state.z[0] * state.z[0]);
   const Real lu1 = lg1 + lk1;
   const Real H1_0_0 = lac1_0 * lac1_0 - model.lM0_0;
-  const Real u1_0 = lk0 - (lg0 - lac1_0 * lu1);
+  const Real u1_0 = lac1_0 * lu1 - (lg0 - lk0);
   const Real y_0 = u1_0 / H1_0_0;
-  const Real zdotl_1 = y_0 - (lu1 - lac1_0 * y_0);
+  const Real zdotl_1 = lac1_0 * y_0 - (lu1 - y_0);
   zdot[0] = -y_0;
   zdot[1] = zdotl_1;
 }
@@ -325,22 +321,20 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[2], Real
     (&tau)[2]) noexcept {
-  Real s0, t15, s1_0, c1_0;
-  detail::sine_cosine2(state.y[0], s0, t15, state.y[1], s1_0, c1_0);
+  Real s0, t13, s1_0, c1_0;
+  detail::sine_cosine2(state.y[0], s0, t13, state.y[1], s1_0, c1_0);
   const Real w1_z = state.z[0] + state.z[1];
-  const Real lww0 = state.z[0] * state.z[0];
-  const Real lww1 = w1_z * w1_z;
   const Real lg0 = s0 * model.lgs0;
   const Real lac1_0 = c1_0 * model.lc1_0;
   const Real las1_0 = s1_0 * model.lc1_0;
-  const Real s1 = s1_0 * t15 + s0 * c1_0;
+  const Real s1 = s1_0 * t13 + s0 * c1_0;
   const Real lg1 = s1 * model.lgs1;
-  const Real lk0 = lww1 * las1_0;
-  const Real lk1 = lww0 * las1_0;
+  const Real lk0 = las1_0 * (w1_z * w1_z);
+  const Real lk1 = las1_0 * (state.z[0] * state.z[0]);
   const Real lx1 = zdot[0] + zdot[1];
-  const Real la1 = lk1 + (lg1 + (lac1_0 * zdot[0] + lx1 * model.S_yy));
-  const Real las1 = lk0 - (lg0 + (zdot[0] * model.elbow_S_yy + (lac1_0 * lx1 + la1)));
-  tau[0] = -las1;
+  const Real la1 = lk1 + lx1 * model.S_yy + (lg1 + lac1_0 * zdot[0]);
+  const Real las1 = la1 + (lg0 + zdot[0] * model.elbow_S_yy - (lk0 - lac1_0 * lx1));
+  tau[0] = las1;
   tau[1] = la1;
 }
 
@@ -348,8 +342,8 @@ template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept {
   const Real w1_z = state.z[0] + state.z[1];
   const Real c1_0 = detail::cosine(state.y[1]);
-  const Real lp1 = state.z[0] * c1_0 * model.lc1_0 + w1_z * model.lTh1;
-  const Real T = state.z[0] * state.z[0] * model.lTh0 + w1_z * lp1;
+  const Real lp1 = c1_0 * (state.z[0] * model.lc1_0) + w1_z * model.lTh1;
+  const Real T = model.lTh0 * (state.z[0] * state.z[0]) + w1_z * lp1;
   return T;
 }
 

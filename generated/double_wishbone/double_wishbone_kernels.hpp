@@ -420,20 +420,20 @@ void position_rate(const Model<Real>& model, const State<Real>& state, Real (&yd
   const Real q1r2_y = q123 + q101;
   const Real q1r2_z = q122 - t34;
   const Real top_jointax_x = s2 * Real(0.03132205098267723) - c2 * Real(0.24);
-  const Real top_jointbx1p_x = q1r1_z * Real(0.31) - (q1r1_x - q1r1_y) * Real(0.03) + Real(0.34);
-  const Real top_jointbx1p_y = q1r2_z * Real(0.31) + Real(0.03) * (q1r2_x + q1r2_y) + Real(0.02);
-  const Real top_jointbx1_x = c0 * top_jointbx1p_x + s0 * top_jointbx1p_y;
+  const Real top_jointbx1p_x = (q1r1_x - q1r1_y) * Real(0.03) - (q1r1_z * Real(0.31) + Real(0.34));
+  const Real top_jointbx1p_y = Real(0.03) * (q1r2_x + q1r2_y) + (q1r2_z * Real(0.31) + Real(0.02));
+  const Real top_jointbx1_x = c0 * top_jointbx1p_x - s0 * top_jointbx1p_y;
   const detail::Angle<Real> expression = detail::Angle<Real>(state.t) * model.rate;
   Real s, c;
   detail::sine_cosine(expression, s, c);
   const Real expression_2 = Real(1.0) - c;
   const Real expression_3 = expression_2 * model.c1;
-  const Real tie_rodbx1p_x = q1r1_x * Real(0.14) - (Real(0.34) + (q1r1_z * Real(0.07) + q1r1_y * Real(0.02)));
-  const Real tie_rodbx1p_y = q1r2_x * Real(0.14) + (Real(0.02) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02)));
-  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x - s0 * tie_rodbx1p_y;
-  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y + s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_y * Real(0.02) - (q1r0_x * Real(0.14) + q1r0_z * Real(0.07)) - Real(0.14);
-  const Real tie_rodd_y = expression_3 + tie_rodbx1_x;
+  const Real tie_rodbx1p_x = Real(0.34) - q1r1_x * Real(0.14) + (q1r1_z * Real(0.07) + q1r1_y * Real(0.02));
+  const Real tie_rodbx1p_y = Real(0.02) + q1r2_x * Real(0.14) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02));
+  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
+  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
+  const Real tie_rodd_x = q1r0_z * Real(0.07) + Real(0.14) + (q1r0_x * Real(0.14) - q1r0_y * Real(0.02));
+  const Real tie_rodd_y = expression_3 - tie_rodbx1_x;
   const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
   const Real t100 = q1r0_z * Real(0.03);
   const Real top_joints1bf1_y = c0 * q1r1_y + s0 * q1r2_y;
@@ -453,46 +453,46 @@ void position_rate(const Model<Real>& model, const State<Real>& state, Real (&yd
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
   const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x + s0 * tie_rods0bf0_y;
   const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y - s0 * tie_rods0bf0_x;
-  const Real tie_rods0bf1_y = q1r1_y * tie_rods0bf1p_x - (q1r0_y * tie_rods0bf0_z + q1r2_y * tie_rods0bf1p_y);
-  const Real tie_rods0bf1_z = q1r1_z * tie_rods0bf1p_x + (q1r0_z * tie_rods0bf0_z - q1r2_z * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y - (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y + (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
   const Real tie_rods0bm_x = Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z;
-  const Real tie_rods0bf1_x = q1r1_x * tie_rods0bf1p_x - (q1r0_x * tie_rods0bf0_z - q1r2_x * tie_rods0bf1p_y);
-  const Real t168 = Real(1.0) / top_joints2am_z;
-  const Real t169 = top_jointax_y * t168;
-  const Real t175 = Real(0.31) * top_joints1bf1_x + (t109 + top_joints2bm_y * t169);
-  const Real t179 = top_joints2bm_z * t169 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
-  const Real t185 = Real(1.0) / (t109 - (Real(0.31) * top_joints1bf1_y + top_joints2bm_x * t169));
-  const Real t186 = (t100 + (q1r0_y * Real(0.31) + top_joints2bm_x * Real(0.06992681194351041))) * t185;
-  const Real t190 = q1r0_x * Real(0.31) - (t100 - (top_joints2bm_y * Real(0.06992681194351041) + t175 *
-      t186));
-  const Real t192 = t190 * Real(0.0967741935483871);
-  const Real t193 = tie_rods0bm_x * t185;
-  const Real t198 = Real(1.0) / t190;
-  const Real t199 = (Real(0.07) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_z + t175 * t193)) * t198;
-  const Real t204 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (t179 * t193 -
-      t192 * t199)));
-  const Real t207 = s0 * top_jointbx1p_x - (c0 * top_jointbx1p_y - top_jointbx1_x * t169);
-  const Real t210 = top_jointbx1_x * Real(0.06992681194351041) + t186 * t207;
-  const Real t216 = t204 * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y + (t193 * t207 -
-      t199 * t210)));
-  const Real t219 = t198 * (t210 + t192 * t216);
-  const Real t224 = t185 * (t175 * t219 - (t207 + t179 * t216));
-  const Real t239 = tie_rods0bf0_x * s * t204 * model.c2;
+  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y + (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
+  const Real t167 = Real(1.0) / top_joints2am_z;
+  const Real t168 = top_jointax_y * t167;
+  const Real t174 = top_joints2bm_y * t168 + (t109 + Real(0.31) * top_joints1bf1_x);
+  const Real t178 = top_joints2bm_z * t168 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
+  const Real t184 = Real(1.0) / (top_joints2bm_x * t168 + (Real(0.31) * top_joints1bf1_y - t109));
+  const Real t185 = (top_joints2bm_x * Real(0.06992681194351041) + (q1r0_y * Real(0.31) + t100)) * t184;
+  const Real t189 = t174 * t185 - (top_joints2bm_y * Real(0.06992681194351041) - (t100 - q1r0_x *
+      Real(0.31)));
+  const Real t191 = t189 * Real(0.0967741935483871);
+  const Real t192 = tie_rods0bm_x * t184;
+  const Real t197 = Real(1.0) / t189;
+  const Real t198 = (t174 * t192 - (Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x)) * t197;
+  const Real t203 = Real(1.0) / (t191 * t198 - (t178 * t192 - (Real(0.14) * tie_rods0bf1_y - Real(0.02) *
+      tie_rods0bf1_x)));
+  const Real t206 = top_jointbx1_x * t168 + (c0 * top_jointbx1p_y + s0 * top_jointbx1p_x);
+  const Real t209 = top_jointbx1_x * Real(0.06992681194351041) - t185 * t206;
+  const Real t215 = t203 * (t198 * t209 + (t192 * t206 + (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y *
+      tie_rods0bf0_x)));
+  const Real t218 = t197 * (t209 - t191 * t215);
+  const Real t223 = t184 * (t174 * t218 + (t206 + t178 * t215));
+  const Real t239 = t203 * (tie_rods0bf0_x * (s * model.c2));
   const Real t240 = Real(0.0967741935483871) * t239;
-  const Real t241 = t224 * state.z[0] - t240;
-  const Real t242 = t219 * state.z[0] - t240;
-  const Real t243 = t216 * state.z[0] - t239;
+  const Real t241 = t223 * state.z[0] - t240;
+  const Real t242 = t218 * state.z[0] + t240;
+  const Real t243 = t215 * state.z[0] - t239;
   const Real t245 = state.y[1] * Real(0.5);
   const Real t246 = state.y[2] * Real(0.5);
   const Real t247 = state.y[3] * Real(0.5);
   const Real t248 = state.y[4] * Real(0.5);
   ydot[0] = state.z[0];
-  ydot[1] = -(t242 * t247 + (t241 * t246 - t243 * t248));
-  ydot[2] = -(t242 * t248 - (t241 * t245 - t243 * t247));
-  ydot[3] = t242 * t245 + (t241 * t248 + t243 * t246);
-  ydot[4] = t242 * t246 - (t241 * t247 + t243 * t245);
-  ydot[5] = t168 * (top_joints2bm_x * t224 - (top_jointbx1_x - (top_joints2bm_y * t219 - top_joints2bm_z *
-      t216))) * state.z[0];
+  ydot[1] = t241 * t246 - (t242 * t247 + t243 * t248);
+  ydot[2] = -(t241 * t245 + (t242 * t248 - t243 * t247));
+  ydot[3] = -(t241 * t248 - (t242 * t245 - t243 * t246));
+  ydot[4] = t241 * t247 + (t242 * t246 + t243 * t245);
+  ydot[5] = -((top_joints2bm_x * t223 - (top_joints2bm_y * t218 + (top_jointbx1_x + top_joints2bm_z * t215)))
+      * (t167 * state.z[0]));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -507,7 +507,7 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1
   const Real q113 = q1d3 * state.y[2];
   const Real q102 = q1d2 * state.y[1];
   const Real q103 = q1d3 * state.y[1];
-  const Real q1r0_x = q122 + q133 - Real(1.0);
+  const Real q1r0_x = q133 + (q122 - Real(1.0));
   const Real q1r0_y = q112 - q103;
   const Real q1r0_z = q113 + q102;
   const Real top_jointax_y = c2 * Real(0.03132205098267723) + s2 * Real(0.24);
@@ -523,18 +523,18 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1
   const Real q1r2_y = q123 + q101;
   const Real q1r2_z = q122 - t34;
   const Real top_jointax_x = s2 * Real(0.03132205098267723) - c2 * Real(0.24);
-  const Real top_jointbx1p_x = q1r1_z * Real(0.31) - (q1r1_x - q1r1_y) * Real(0.03) + Real(0.34);
-  const Real top_jointbx1p_y = q1r2_z * Real(0.31) + Real(0.03) * (q1r2_x + q1r2_y) + Real(0.02);
-  const Real top_jointbx1_x = c0 * top_jointbx1p_x + s0 * top_jointbx1p_y;
+  const Real top_jointbx1p_x = (q1r1_x - q1r1_y) * Real(0.03) - (q1r1_z * Real(0.31) + Real(0.34));
+  const Real top_jointbx1p_y = Real(0.03) * (q1r2_x + q1r2_y) + (q1r2_z * Real(0.31) + Real(0.02));
+  const Real top_jointbx1_x = c0 * top_jointbx1p_x - s0 * top_jointbx1p_y;
   const detail::Angle<Real> expression = detail::Angle<Real>(state.t) * model.rate;
   const Real c = detail::cosine(expression);
   const Real expression_2 = Real(1.0) - c;
   const Real expression_3 = expression_2 * model.c1;
-  const Real tie_rodbx1p_x = q1r1_y * Real(0.02) + (q1r1_z * Real(0.07) + (Real(0.34) - q1r1_x * Real(0.14)));
-  const Real tie_rodbx1p_y = q1r2_y * Real(0.02) + (q1r2_z * Real(0.07) + (Real(0.02) + q1r2_x * Real(0.14)));
+  const Real tie_rodbx1p_x = Real(0.34) - q1r1_x * Real(0.14) + (q1r1_z * Real(0.07) + q1r1_y * Real(0.02));
+  const Real tie_rodbx1p_y = Real(0.02) + q1r2_x * Real(0.14) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02));
   const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
   const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) - q1r0_y * Real(0.02)) + Real(0.14);
+  const Real tie_rodd_x = q1r0_z * Real(0.07) + Real(0.14) + (q1r0_x * Real(0.14) - q1r0_y * Real(0.02));
   const Real tie_rodd_y = expression_3 - tie_rodbx1_x;
   const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
   const Real t100 = q1r0_z * Real(0.03);
@@ -571,15 +571,15 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1
   const Real t191 = tie_rods0bm_x * t183;
   const Real t196 = Real(1.0) / t188;
   const Real t197 = (t173 * t191 - (Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x)) * t196;
-  const Real t204 = top_jointbx1_x * t167 - (c0 * top_jointbx1p_y - s0 * top_jointbx1p_x);
+  const Real t204 = top_jointbx1_x * t167 + (c0 * top_jointbx1p_y + s0 * top_jointbx1p_x);
   const Real t207 = top_jointbx1_x * Real(0.06992681194351041) - t184 * t204;
-  const Real t213 = (t197 * t207 + (t191 * t204 - (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y *
+  const Real t213 = (t197 * t207 + (t191 * t204 + (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y *
       tie_rods0bf0_x))) / (t190 * t197 - (t177 * t191 - (Real(0.14) * tie_rods0bf1_y - Real(0.02) *
       tie_rods0bf1_x)));
   const Real t216 = t196 * (t207 - t190 * t213);
-  const Real t221 = t183 * (t177 * t213 + (t204 + t173 * t216));
-  const Real t228 = t166 * (top_joints2bm_z * t213 + (top_joints2bm_y * t216 + (top_jointbx1_x -
-      top_joints2bm_x * t221)));
+  const Real t221 = t183 * (t173 * t216 + (t204 + t177 * t213));
+  const Real t228 = t166 * (top_joints2bm_x * t221 - (top_joints2bm_y * t216 + (top_jointbx1_x +
+      top_joints2bm_z * t213)));
   const Real h1at1_x = q1r1_y * Real(1.6) - q1r1_z * Real(3.84);
   const Real h1at1_y = q1r2_y * Real(1.6) - q1r2_z * Real(3.84);
   const Real S1at1r0_y = q1r1_y * Real(0.33) - q1r1_z * Real(0.192);
@@ -588,15 +588,15 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1
   const Real S1at1r1_z = q1r2_z * Real(1.1108) - q1r2_y * Real(0.192);
   const Real p_1_1f_x = q1r1_z * Real(1.6) + q1r1_y * Real(3.84);
   const Real p_1_1f_y = q1r2_z * Real(1.6) + q1r2_y * Real(3.84);
-  const Real p_1_1n_z = q1r0_x * Real(1.4408) - (Real(0.02) * p_1_1f_x - Real(0.34) * p_1_1f_y);
+  const Real p_1_1n_z = Real(0.34) * p_1_1f_y - (Real(0.02) * p_1_1f_x - q1r0_x * Real(1.4408));
   const Real t281 = q1r1_x * Real(0.0768) + q1r2_x * Real(1.3056);
-  const Real p_2_1n_z = q1r0_y * Real(1.7608) - (q1r0_z * Real(0.192) - t281);
-  const Real p_3_1n_z = q1r0_z * Real(0.98) - (q1r0_y * Real(0.192) + t281 * Real(0.4166666666666667));
-  M[0][0] = (q1r1_x * q1r1_x + q1r2_x * q1r2_x) * Real(0.65) + (q1r1_y * S1at1r0_y + (q1r1_z * S1at1r0_z -
-      (h1at1_x * Real(0.68) - (q1r2_y * S1at1r1_y + (q1r2_z * S1at1r1_z - (h1at1_y * Real(0.04) - (t228 * t228
-      * Real(0.0505) - (t221 * (p_1_1n_z + (p_1_1n_z - t221 * Real(1.4408))) - (t213 * (t213 * Real(0.98) -
-      (p_3_1n_z + (p_3_1n_z + t216 * Real(0.192)))) - t216 * (t213 * Real(0.192) + (p_2_1n_z + (p_2_1n_z -
-      t216 * Real(1.7608)))))))))))) + Real(3.9165000000000005));
+  const Real p_2_1n_z = t281 - (q1r0_z * Real(0.192) - q1r0_y * Real(1.7608));
+  const Real p_3_1n_z = t281 * Real(0.4166666666666667) + (q1r0_y * Real(0.192) - q1r0_z * Real(0.98));
+  M[0][0] = t228 * (t228 * Real(0.0505)) + (t221 * (t221 * Real(1.4408) + (p_1_1n_z + p_1_1n_z)) + (t216 *
+      (t216 * Real(1.7608) - (t213 * Real(0.192) - (p_2_1n_z + p_2_1n_z))) - (t213 * (t216 * Real(0.192) -
+      (t213 * Real(0.98) - (p_3_1n_z + p_3_1n_z))) - ((q1r1_x * q1r1_x + q1r2_x * q1r2_x) * Real(0.65) +
+      Real(3.9165000000000005) + (q1r1_y * S1at1r0_y + q1r1_z * S1at1r0_z) + (q1r2_y * S1at1r1_y + q1r2_z *
+      S1at1r1_z - (h1at1_x * Real(0.68) + h1at1_y * Real(0.04)))))));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -627,21 +627,21 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noe
   const Real q1r2_y = q123 + q101;
   const Real q1r2_z = q122 - t34;
   const Real top_jointax_x = s2 * Real(0.03132205098267723) - c2 * Real(0.24);
-  const Real top_jointbx1p_x = q1r1_z * Real(0.31) - (q1r1_x - q1r1_y) * Real(0.03) + Real(0.34);
-  const Real top_jointbx1p_y = q1r2_z * Real(0.31) + Real(0.03) * (q1r2_x + q1r2_y) + Real(0.02);
-  const Real top_jointbx1_x = c0 * top_jointbx1p_x + s0 * top_jointbx1p_y;
-  const Real top_jointbx1_y = c0 * top_jointbx1p_y - s0 * top_jointbx1p_x;
+  const Real top_jointbx1p_x = (q1r1_x - q1r1_y) * Real(0.03) - (q1r1_z * Real(0.31) + Real(0.34));
+  const Real top_jointbx1p_y = Real(0.03) * (q1r2_x + q1r2_y) + (q1r2_z * Real(0.31) + Real(0.02));
+  const Real top_jointbx1_x = c0 * top_jointbx1p_x - s0 * top_jointbx1p_y;
+  const Real top_jointbx1_y = c0 * top_jointbx1p_y + s0 * top_jointbx1p_x;
   const detail::Angle<Real> expression = detail::Angle<Real>(state.t) * model.rate;
   Real s, c;
   detail::sine_cosine(expression, s, c);
   const Real expression_2 = Real(1.0) - c;
   const Real expression_3 = expression_2 * model.c1;
-  const Real tie_rodbx1p_x = q1r1_x * Real(0.14) - (Real(0.34) + (q1r1_z * Real(0.07) + q1r1_y * Real(0.02)));
-  const Real tie_rodbx1p_y = q1r2_x * Real(0.14) + (Real(0.02) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02)));
-  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x - s0 * tie_rodbx1p_y;
-  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y + s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_y * Real(0.02) - (q1r0_x * Real(0.14) + q1r0_z * Real(0.07)) - Real(0.14);
-  const Real tie_rodd_y = expression_3 + tie_rodbx1_x;
+  const Real tie_rodbx1p_x = Real(0.34) - q1r1_x * Real(0.14) + (q1r1_z * Real(0.07) + q1r1_y * Real(0.02));
+  const Real tie_rodbx1p_y = Real(0.02) + q1r2_x * Real(0.14) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02));
+  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
+  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
+  const Real tie_rodd_x = q1r0_z * Real(0.07) + Real(0.14) + (q1r0_x * Real(0.14) - q1r0_y * Real(0.02));
+  const Real tie_rodd_y = expression_3 - tie_rodbx1_x;
   const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
   const Real t101 = q1r0_z * Real(0.03);
   const Real top_joints1bf1_y = c0 * q1r1_y + s0 * q1r2_y;
@@ -661,102 +661,99 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noe
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
   const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x + s0 * tie_rods0bf0_y;
   const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y - s0 * tie_rods0bf0_x;
-  const Real tie_rods0bf1_y = q1r1_y * tie_rods0bf1p_x - (q1r0_y * tie_rods0bf0_z + q1r2_y * tie_rods0bf1p_y);
-  const Real tie_rods0bf1_z = q1r1_z * tie_rods0bf1p_x + (q1r0_z * tie_rods0bf0_z - q1r2_z * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y - (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y + (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
   const Real tie_rods0bm_x = Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z;
-  const Real tie_rods0bf1_x = q1r1_x * tie_rods0bf1p_x - (q1r0_x * tie_rods0bf0_z - q1r2_x * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y + (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
   const Real derivative = s * model.c2;
-  const Real tie_rods0at = tie_rods0bf0_x * derivative;
-  const Real t171 = Real(1.0) / top_joints2am_z;
-  const Real t172 = top_jointax_y * t171;
-  const Real t178 = Real(0.31) * top_joints1bf1_x + (t110 + top_joints2bm_y * t172);
-  const Real t182 = top_joints2bm_z * t172 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
-  const Real t188 = Real(1.0) / (t110 - (Real(0.31) * top_joints1bf1_y + top_joints2bm_x * t172));
-  const Real t189 = (t101 + (q1r0_y * Real(0.31) + top_joints2bm_x * Real(0.06992681194351041))) * t188;
-  const Real t193 = q1r0_x * Real(0.31) - (t101 - (top_joints2bm_y * Real(0.06992681194351041) + t178 *
-      t189));
-  const Real t195 = t193 * Real(0.0967741935483871);
-  const Real t196 = tie_rods0bm_x * t188;
-  const Real t201 = Real(1.0) / t193;
-  const Real t202 = (Real(0.07) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_z + t178 * t196)) * t201;
-  const Real t207 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (t182 * t196 -
-      t195 * t202)));
-  const Real t209 = top_jointbx1_y - top_jointbx1_x * t172;
-  const Real t212 = top_jointbx1_x * Real(0.06992681194351041) - t189 * t209;
-  const Real t218 = t207 * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y - (t196 * t209 +
-      t202 * t212)));
-  const Real t221 = t201 * (t212 + t195 * t218);
-  const Real t226 = t188 * (t178 * t221 + (t209 - t182 * t218));
-  const Real t233 = t171 * (top_joints2bm_x * t226 - (top_jointbx1_x - (top_joints2bm_y * t221 -
-      top_joints2bm_z * t218)));
-  const Real t238 = t233 * state.z[0];
-  const Real t239 = tie_rods0at * t207;
+  const Real t170 = Real(1.0) / top_joints2am_z;
+  const Real t171 = top_jointax_y * t170;
+  const Real t177 = top_joints2bm_y * t171 + (t110 + Real(0.31) * top_joints1bf1_x);
+  const Real t181 = top_joints2bm_z * t171 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
+  const Real t187 = Real(1.0) / (top_joints2bm_x * t171 + (Real(0.31) * top_joints1bf1_y - t110));
+  const Real t188 = (top_joints2bm_x * Real(0.06992681194351041) + (q1r0_y * Real(0.31) + t101)) * t187;
+  const Real t192 = t177 * t188 - (top_joints2bm_y * Real(0.06992681194351041) - (t101 - q1r0_x *
+      Real(0.31)));
+  const Real t194 = t192 * Real(0.0967741935483871);
+  const Real t195 = tie_rods0bm_x * t187;
+  const Real t200 = Real(1.0) / t192;
+  const Real t201 = (t177 * t195 - (Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x)) * t200;
+  const Real t206 = Real(1.0) / (t194 * t201 - (t181 * t195 - (Real(0.14) * tie_rods0bf1_y - Real(0.02) *
+      tie_rods0bf1_x)));
+  const Real t208 = top_jointbx1_y + top_jointbx1_x * t171;
+  const Real t211 = top_jointbx1_x * Real(0.06992681194351041) - t188 * t208;
+  const Real t217 = t206 * (t201 * t211 + (t195 * t208 + (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y *
+      tie_rods0bf0_x)));
+  const Real t220 = t200 * (t211 - t194 * t217);
+  const Real t225 = t187 * (t177 * t220 + (t208 + t181 * t217));
+  const Real t232 = t170 * (top_joints2bm_x * t225 - (top_joints2bm_y * t220 + (top_jointbx1_x +
+      top_joints2bm_z * t217)));
+  const Real t237 = t232 * state.z[0];
+  const Real t239 = t206 * (tie_rods0bf0_x * derivative);
   const Real t240 = Real(0.0967741935483871) * t239;
-  const Real t241 = t226 * state.z[0] - t240;
-  const Real t242 = t221 * state.z[0] - t240;
-  const Real t243 = t218 * state.z[0] - t239;
-  const Real top_jointam2t_y = top_jointax_x * t238;
-  const Real t246 = Real(0.03) * t243;
-  const Real top_jointbm1t_x = Real(0.31) * t242 - t246;
-  const Real top_jointbm1t_y = t246 - Real(0.31) * t241;
-  const Real top_jointbm1t_z = Real(0.03) * (t241 - t242);
-  const Real top_jointam2t_x = top_jointax_y * t238;
-  const Real top_jointam2a_y = t238 * top_jointam2t_x;
+  const Real t241 = t225 * state.z[0] - t240;
+  const Real t242 = t220 * state.z[0] + t240;
+  const Real t243 = t217 * state.z[0] - t239;
+  const Real t245 = Real(0.03) * t243;
+  const Real top_jointbm1t_x = Real(0.31) * t242 + t245;
+  const Real top_jointbm1t_y = t245 - Real(0.31) * t241;
+  const Real top_jointbm1t_z = Real(0.03) * (t241 + t242);
+  const Real top_jointam2a_y = t237 * (top_jointax_y * t237);
   const Real top_jointam2app_x = top_jointam2a_y * Real(0.0697564737441253);
-  const Real top_jointbm1a_x = t242 * top_jointbm1t_z - t243 * top_jointbm1t_y;
-  const Real top_jointbm1a_y = t241 * top_jointbm1t_z - t243 * top_jointbm1t_x;
+  const Real top_jointbm1a_x = t242 * top_jointbm1t_z + t243 * top_jointbm1t_y;
+  const Real top_jointbm1a_y = t241 * top_jointbm1t_z + t243 * top_jointbm1t_x;
   const Real top_jointbm1a_z = t241 * top_jointbm1t_y - t242 * top_jointbm1t_x;
-  const Real top_jointbm1vpp_x = q1r1_y * top_jointbm1t_y - (q1r1_x * top_jointbm1t_x - q1r1_z *
-      top_jointbm1t_z);
-  const Real top_jointbm1vpp_y = q1r2_y * top_jointbm1t_y + (q1r2_x * top_jointbm1t_x + q1r2_z *
-      top_jointbm1t_z);
+  const Real top_jointbm1vpp_x = q1r1_z * top_jointbm1t_z + (q1r1_x * top_jointbm1t_x + q1r1_y *
+      top_jointbm1t_y);
+  const Real top_jointbm1vpp_y = q1r2_z * top_jointbm1t_z - (q1r2_x * top_jointbm1t_x - q1r2_y *
+      top_jointbm1t_y);
   const Real top_jointbm1vp_x = c0 * top_jointbm1vpp_x + s0 * top_jointbm1vpp_y;
   const Real top_jointbm0t_x = top_jointbx1_y * state.z[0];
-  const Real top_jointam2a_x = t238 * top_jointam2t_y;
+  const Real top_jointam2a_x = t237 * (top_jointax_x * t237);
   const Real top_jointbm1vp_y = c0 * top_jointbm1vpp_y - s0 * top_jointbm1vpp_x;
-  const Real top_jointbm1app_x = q1r1_y * top_jointbm1a_y + (q1r1_x * top_jointbm1a_x - q1r1_z *
-      top_jointbm1a_z);
-  const Real top_jointbm1app_y = q1r2_y * top_jointbm1a_y - (q1r2_x * top_jointbm1a_x + q1r2_z *
-      top_jointbm1a_z);
+  const Real top_jointbm1app_x = q1r1_z * top_jointbm1a_z + (q1r1_x * top_jointbm1a_x - q1r1_y *
+      top_jointbm1a_y);
+  const Real top_jointbm1app_y = q1r2_z * top_jointbm1a_z - (q1r2_x * top_jointbm1a_x + q1r2_y *
+      top_jointbm1a_y);
   const Real top_jointbm0t_y = top_jointbx1_x * state.z[0];
   const Real top_jointbm0b_y = top_jointbm0t_y + Real(2.0) * top_jointbm1vp_y;
   const Real top_jointam2app_z = Real(0.9975640502598242) * top_jointam2a_y;
-  const Real top_jointbm0b_x = top_jointbm0t_x - Real(2.0) * top_jointbm1vp_x;
-  const Real top_jointda_z = c0 * top_jointbm1app_y + (top_jointam2app_z - (s0 * top_jointbm1app_x -
-      state.z[0] * top_jointbm0b_x));
-  const Real tie_rodbm1t_x = Real(0.07) * t242 - Real(0.02) * t243;
+  const Real top_jointbm0b_x = top_jointbm0t_x + Real(2.0) * top_jointbm1vp_x;
+  const Real top_jointda_z = state.z[0] * top_jointbm0b_x + (s0 * top_jointbm1app_x + (top_jointam2app_z - c0
+      * top_jointbm1app_y));
+  const Real tie_rodbm1t_x = Real(0.07) * t242 + Real(0.02) * t243;
   const Real tie_rodbm1t_y = Real(0.14) * t243 - Real(0.07) * t241;
-  const Real tie_rodbm1t_z = Real(0.14) * t242 - Real(0.02) * t241;
-  const Real tie_rodbm1vpp_x = q1r1_y * tie_rodbm1t_y - (q1r1_x * tie_rodbm1t_x + q1r1_z * tie_rodbm1t_z);
-  const Real tie_rodbm1vpp_y = q1r2_y * tie_rodbm1t_y + (q1r2_x * tie_rodbm1t_x - q1r2_z * tie_rodbm1t_z);
-  const Real tie_rodbm1vpp_z = q1r0_y * tie_rodbm1t_y - (q1r0_x * tie_rodbm1t_x - q1r0_z * tie_rodbm1t_z);
+  const Real tie_rodbm1t_z = Real(0.14) * t242 + Real(0.02) * t241;
+  const Real tie_rodbm1vpp_x = q1r1_z * tie_rodbm1t_z + (q1r1_x * tie_rodbm1t_x + q1r1_y * tie_rodbm1t_y);
+  const Real tie_rodbm1vpp_y = q1r2_z * tie_rodbm1t_z - (q1r2_x * tie_rodbm1t_x - q1r2_y * tie_rodbm1t_y);
+  const Real tie_rodbm1vpp_z = q1r0_z * tie_rodbm1t_z - (q1r0_x * tie_rodbm1t_x + q1r0_y * tie_rodbm1t_y);
   const Real tie_rodbm1vp_x = c0 * tie_rodbm1vpp_x + s0 * tie_rodbm1vpp_y;
   const Real tie_rodbm1vp_y = c0 * tie_rodbm1vpp_y - s0 * tie_rodbm1vpp_x;
   const Real tie_rodbm0t_x = tie_rodbx1_y * state.z[0];
   const Real tie_rodbm0t_y = tie_rodbx1_x * state.z[0];
   const Real tie_rodbm0v_y = tie_rodbm1vp_y - tie_rodbm0t_y;
-  const Real tie_roddv_y = tie_rodbm1vp_x + (derivative - tie_rodbm0t_x);
+  const Real tie_roddv_y = tie_rodbm1vp_x - (derivative - tie_rodbm0t_x);
   const Real derivative_2 = c * model.c3;
   const Real tie_rodbm1a_x = t242 * tie_rodbm1t_z + t243 * tie_rodbm1t_y;
   const Real tie_rodbm1a_y = t241 * tie_rodbm1t_z + t243 * tie_rodbm1t_x;
   const Real tie_rodbm1a_z = t241 * tie_rodbm1t_y - t242 * tie_rodbm1t_x;
-  const Real tie_rodbm1app_x = q1r1_y * tie_rodbm1a_y + (q1r1_x * tie_rodbm1a_x + q1r1_z * tie_rodbm1a_z);
-  const Real tie_rodbm1app_y = q1r2_y * tie_rodbm1a_y - (q1r2_x * tie_rodbm1a_x - q1r2_z * tie_rodbm1a_z);
-  const Real tie_rodbm1app_z = q1r0_y * tie_rodbm1a_y + (q1r0_x * tie_rodbm1a_x - q1r0_z * tie_rodbm1a_z);
-  const Real tie_rodbm0b_x = tie_rodbm0t_x - Real(2.0) * tie_rodbm1vp_x;
+  const Real tie_rodbm1app_x = q1r1_z * tie_rodbm1a_z + (q1r1_x * tie_rodbm1a_x - q1r1_y * tie_rodbm1a_y);
+  const Real tie_rodbm1app_y = q1r2_z * tie_rodbm1a_z - (q1r2_x * tie_rodbm1a_x + q1r2_y * tie_rodbm1a_y);
+  const Real tie_rodbm1app_z = q1r0_z * tie_rodbm1a_z - (q1r0_x * tie_rodbm1a_x - q1r0_y * tie_rodbm1a_y);
+  const Real tie_rodbm0b_x = tie_rodbm0t_x + Real(2.0) * tie_rodbm1vp_x;
   const Real tie_rodbm0b_y = tie_rodbm1vp_y + tie_rodbm0v_y;
-  const Real tie_rodbm0a_y = s0 * tie_rodbm1app_x - (c0 * tie_rodbm1app_y - state.z[0] * tie_rodbm0b_x);
-  const Real tie_rodda_y = c0 * tie_rodbm1app_x - (derivative_2 - (s0 * tie_rodbm1app_y - state.z[0] *
-      tie_rodbm0b_y));
-  const Real t396 = c0 * top_jointbm1app_x + (top_jointam2a_x + (s0 * top_jointbm1app_y + (state.z[0] *
-      top_jointbm0b_y + t172 * top_jointda_z)));
-  const Real t403 = q1r0_x * top_jointbm1a_x - (top_jointam2app_x - (q1r0_y * top_jointbm1a_y + (q1r0_z *
-      top_jointbm1a_z + (Real(0.06992681194351041) * top_jointda_z + t189 * t396))));
-  const Real t414 = t207 * (t202 * t403 - (t196 * t396 + Real(3.123475237772121) * (tie_rodbm0v_y *
-      tie_rodbm0v_y + (tie_rodbm1vpp_z * tie_rodbm1vpp_z + (tie_roddv_y * tie_roddv_y + (tie_rodd_x *
-      tie_rodbm1app_z - (tie_rodd_z * tie_rodbm0a_y + tie_rodd_y * tie_rodda_y)))))));
-  const Real t417 = t201 * (t403 + t195 * t414);
-  const Real t422 = t188 * (t178 * t417 - (t396 + t182 * t414));
+  const Real tie_rodbm0a_y = state.z[0] * tie_rodbm0b_x - (c0 * tie_rodbm1app_y - s0 * tie_rodbm1app_x);
+  const Real tie_rodda_y = state.z[0] * tie_rodbm0b_y + (s0 * tie_rodbm1app_y - (derivative_2 - c0 *
+      tie_rodbm1app_x));
+  const Real t396 = t171 * top_jointda_z - (state.z[0] * top_jointbm0b_y + (s0 * top_jointbm1app_y -
+      (top_jointam2a_x - c0 * top_jointbm1app_x)));
+  const Real t403 = t188 * t396 - (Real(0.06992681194351041) * top_jointda_z - (top_jointam2app_x + q1r0_x *
+      top_jointbm1a_x - (q1r0_y * top_jointbm1a_y + q1r0_z * top_jointbm1a_z)));
+  const Real t414 = t206 * (t201 * t403 - (t195 * t396 - Real(3.123475237772121) * (tie_rodd_y * tie_rodda_y +
+      (tie_rodd_z * tie_rodbm0a_y - (tie_rodbm1vpp_z * tie_rodbm1vpp_z + tie_rodd_x * tie_rodbm1app_z +
+      (tie_rodbm0v_y * tie_rodbm0v_y + tie_roddv_y * tie_roddv_y))))));
+  const Real t417 = t200 * (t403 - t194 * t414);
+  const Real t422 = t187 * (t177 * t417 - (t396 - t181 * t414));
   const Real w1p_x = q1r0_x * state.z[0];
   const Real w1p_y = q1r0_y * state.z[0];
   const Real w1p_z = q1r0_z * state.z[0];
@@ -769,36 +766,36 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noe
   const Real kK1_x = w1p_x * Real(0.65);
   const Real kK1_y = w1p_y * Real(0.33) + w1p_z * Real(0.192);
   const Real kK1_z = w1p_z * Real(1.1108) + w1p_y * Real(0.192);
-  const Real ku1_x = t241 - Real(2.0) * w1p_x;
+  const Real ku1_x = t241 + Real(2.0) * w1p_x;
   const Real ku1_y = t242 + Real(2.0) * w1p_y;
-  const Real ku1_z = t243 - Real(2.0) * w1p_z;
+  const Real ku1_z = t243 + Real(2.0) * w1p_z;
   const Real kSu1_x = Real(0.65) * ku1_x;
-  const Real kSu1_y = Real(0.33) * ku1_y - Real(0.192) * ku1_z;
-  const Real kSu1_z = Real(1.1108) * ku1_z - Real(0.192) * ku1_y;
-  const Real kuh1 = Real(1.6) * ku1_y - Real(3.84) * ku1_z;
-  const Real kuw1 = t242 * ku1_y + (t241 * ku1_x + t243 * ku1_z);
+  const Real kSu1_y = Real(0.33) * ku1_y + Real(0.192) * ku1_z;
+  const Real kSu1_z = Real(1.1108) * ku1_z + Real(0.192) * ku1_y;
+  const Real kuh1 = Real(1.6) * ku1_y + Real(3.84) * ku1_z;
+  const Real kuw1 = t241 * ku1_x + (t242 * ku1_y + t243 * ku1_z);
   const Real kdf1_x = t241 * kuh1;
   const Real kdf1_y = Real(1.6) * kuw1 - t242 * kuh1;
-  const Real kdf1_z = Real(3.84) * kuw1 + t243 * kuh1;
+  const Real kdf1_z = Real(3.84) * kuw1 - t243 * kuh1;
   const Real kdn1_x = t242 * kSu1_z - t243 * kSu1_y;
   const Real kdn1_y = t241 * kSu1_z - t243 * kSu1_x;
   const Real kdn1_z = t241 * kSu1_y - t242 * kSu1_x;
-  const Real kf1p_x = q1r1_y * kdf1_y + (q1r1_x * kdf1_x - q1r1_z * kdf1_z);
-  const Real kf1p_y = q1r2_y * kdf1_y - (q1r2_x * kdf1_x + q1r2_z * kdf1_z);
+  const Real kf1p_x = q1r1_z * kdf1_z + (q1r1_x * kdf1_x - q1r1_y * kdf1_y);
+  const Real kf1p_y = q1r2_z * kdf1_z - (q1r2_x * kdf1_x + q1r2_y * kdf1_y);
   const Real p_1_1f_x = q1r1_z * Real(1.6) + q1r1_y * Real(3.84);
   const Real p_1_1f_y = q1r2_z * Real(1.6) + q1r2_y * Real(3.84);
   const Real p_1_1n_z = Real(0.34) * p_1_1f_y - (Real(0.02) * p_1_1f_x - q1r0_x * Real(1.4408));
-  const Real p_2_1n_z = q1r2_x * Real(1.3056) + (q1r1_x * Real(0.0768) - (q1r0_z * Real(0.192) - q1r0_y *
-      Real(1.7608)));
-  const Real p_3_1n_z = q1r2_x * Real(0.544) + (q1r1_x * Real(0.032) + (q1r0_y * Real(0.192) - q1r0_z *
-      Real(0.98)));
-  k[0] = q1r0_y * kdn1_y + (q1r0_x * kdn1_x + (q1r0_z * kdn1_z - (Real(0.02) * kf1p_x - (Real(0.34) * kf1p_y +
-      (t422 * p_1_1n_z - (t417 * p_2_1n_z + (t414 * p_3_1n_z - (t226 * (ka1_y * Real(3.84) + (ka1_z *
-      Real(1.6) + (w1p_y * kK1_z - (w1p_z * kK1_y + (kdn1_x + t422 * Real(1.4408)))))) + (t221 * (w1p_x *
-      kK1_z + (ka1_x * Real(3.84) - (w1p_z * kK1_x - (kdn1_y - (t417 * Real(1.7608) + t414 * Real(0.192))))))
-      + (t218 * (w1p_x * kK1_y + (ka1_x * Real(1.6) - (w1p_y * kK1_x + (kdn1_z + (t417 * Real(0.192) + t414 *
-      Real(0.98)))))) - t233 * (t171 * (top_joints2bm_x * t422 - (top_jointda_z - (top_joints2bm_y * t417 -
-      top_joints2bm_z * t414)))) * Real(0.0505)))))))))));
+  const Real p_2_1n_z = q1r1_x * Real(0.0768) + q1r2_x * Real(1.3056) - (q1r0_z * Real(0.192) - q1r0_y *
+      Real(1.7608));
+  const Real p_3_1n_z = q1r1_x * Real(0.032) + q1r2_x * Real(0.544) + (q1r0_y * Real(0.192) - q1r0_z *
+      Real(0.98));
+  k[0] = -(t220 * (t417 * Real(1.7608) - (t414 * Real(0.192) + (kdn1_y - (w1p_z * kK1_x - (ka1_x * Real(3.84)
+      + w1p_x * kK1_z))))) + (t417 * p_2_1n_z - (t414 * p_3_1n_z - (Real(0.34) * kf1p_y - (Real(0.02) * kf1p_x
+      - (q1r0_z * kdn1_z + (q1r0_x * kdn1_x - q1r0_y * kdn1_y)))))) + (t422 * p_1_1n_z - t217 * (t417 *
+      Real(0.192) - (t414 * Real(0.98) + (kdn1_z - (w1p_y * kK1_x - (ka1_x * Real(1.6) + w1p_x * kK1_y)))))) +
+      (t225 * (t422 * Real(1.4408) + (kdn1_x + (ka1_z * Real(1.6) + ka1_y * Real(3.84) + (w1p_y * kK1_z -
+      w1p_z * kK1_y)))) + (top_joints2bm_x * t422 - (top_joints2bm_y * t417 - (top_jointda_z - top_joints2bm_z
+      * t414))) * (t232 * (t170 * Real(0.0505)))));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -830,19 +827,19 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real q1r2_y = q123 + q101;
   const Real q1r2_z = q122 - t34;
   const Real top_jointax_x = s2 * Real(0.03132205098267723) - c2 * Real(0.24);
-  const Real top_jointbx1p_x = q1r1_z * Real(0.31) - (q1r1_x - q1r1_y) * Real(0.03) + Real(0.34);
-  const Real top_jointbx1p_y = q1r2_z * Real(0.31) + Real(0.03) * (q1r2_x + q1r2_y) + Real(0.02);
-  const Real top_jointbx1_x = c0 * top_jointbx1p_x + s0 * top_jointbx1p_y;
+  const Real top_jointbx1p_x = (q1r1_x - q1r1_y) * Real(0.03) - (q1r1_z * Real(0.31) + Real(0.34));
+  const Real top_jointbx1p_y = Real(0.03) * (q1r2_x + q1r2_y) + (q1r2_z * Real(0.31) + Real(0.02));
+  const Real top_jointbx1_x = c0 * top_jointbx1p_x - s0 * top_jointbx1p_y;
   const detail::Angle<Real> expression = detail::Angle<Real>(state.t) * model.rate;
   const Real c = detail::cosine(expression);
   const Real expression_2 = Real(1.0) - c;
   const Real expression_3 = expression_2 * model.c1;
-  const Real tie_rodbx1p_x = q1r1_x * Real(0.14) - (Real(0.34) + (q1r1_z * Real(0.07) + q1r1_y * Real(0.02)));
-  const Real tie_rodbx1p_y = q1r2_x * Real(0.14) + (Real(0.02) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02)));
-  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x - s0 * tie_rodbx1p_y;
-  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y + s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_y * Real(0.02) - (q1r0_x * Real(0.14) + q1r0_z * Real(0.07)) - Real(0.14);
-  const Real tie_rodd_y = expression_3 + tie_rodbx1_x;
+  const Real tie_rodbx1p_x = Real(0.34) - q1r1_x * Real(0.14) + (q1r1_z * Real(0.07) + q1r1_y * Real(0.02));
+  const Real tie_rodbx1p_y = Real(0.02) + q1r2_x * Real(0.14) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02));
+  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
+  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
+  const Real tie_rodd_x = q1r0_z * Real(0.07) + Real(0.14) + (q1r0_x * Real(0.14) - q1r0_y * Real(0.02));
+  const Real tie_rodd_y = expression_3 - tie_rodbx1_x;
   const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
   const Real t100 = q1r0_z * Real(0.03);
   const Real top_joints1bf1_y = c0 * q1r1_y + s0 * q1r2_y;
@@ -862,52 +859,50 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
   const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x + s0 * tie_rods0bf0_y;
   const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y - s0 * tie_rods0bf0_x;
-  const Real tie_rods0bf1_y = q1r1_y * tie_rods0bf1p_x - (q1r0_y * tie_rods0bf0_z + q1r2_y * tie_rods0bf1p_y);
-  const Real tie_rods0bf1_z = q1r1_z * tie_rods0bf1p_x + (q1r0_z * tie_rods0bf0_z - q1r2_z * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y - (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y + (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
   const Real tie_rods0bm_x = Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z;
-  const Real tie_rods0bf1_x = q1r1_x * tie_rods0bf1p_x - (q1r0_x * tie_rods0bf0_z - q1r2_x * tie_rods0bf1p_y);
+  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y + (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
   const Real t166 = Real(1.0) / top_joints2am_z;
   const Real t167 = top_jointax_y * t166;
-  const Real t173 = Real(0.31) * top_joints1bf1_x + (t109 + top_joints2bm_y * t167);
+  const Real t173 = top_joints2bm_y * t167 + (t109 + Real(0.31) * top_joints1bf1_x);
   const Real t177 = top_joints2bm_z * t167 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
-  const Real t183 = Real(1.0) / (t109 - (Real(0.31) * top_joints1bf1_y + top_joints2bm_x * t167));
-  const Real t184 = (t100 + (q1r0_y * Real(0.31) + top_joints2bm_x * Real(0.06992681194351041))) * t183;
-  const Real t188 = q1r0_x * Real(0.31) - (t100 - (top_joints2bm_y * Real(0.06992681194351041) + t173 *
-      t184));
+  const Real t183 = Real(1.0) / (top_joints2bm_x * t167 + (Real(0.31) * top_joints1bf1_y - t109));
+  const Real t184 = (top_joints2bm_x * Real(0.06992681194351041) + (q1r0_y * Real(0.31) + t100)) * t183;
+  const Real t188 = t173 * t184 - (top_joints2bm_y * Real(0.06992681194351041) - (t100 - q1r0_x *
+      Real(0.31)));
   const Real t190 = t188 * Real(0.0967741935483871);
   const Real t191 = tie_rods0bm_x * t183;
   const Real t196 = Real(1.0) / t188;
-  const Real t197 = (Real(0.07) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_z + t173 * t191)) * t196;
-  const Real t204 = s0 * top_jointbx1p_x - (c0 * top_jointbx1p_y - top_jointbx1_x * t167);
-  const Real t207 = top_jointbx1_x * Real(0.06992681194351041) + t184 * t204;
-  const Real t213 = (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y + (t191 * t204 - t197 *
-      t207))) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (t177 * t191 - t190 * t197)));
-  const Real t216 = t196 * (t207 + t190 * t213);
-  const Real t221 = t183 * (t173 * t216 - (t204 + t177 * t213));
+  const Real t197 = (t173 * t191 - (Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x)) * t196;
+  const Real t204 = top_jointbx1_x * t167 + (c0 * top_jointbx1p_y + s0 * top_jointbx1p_x);
+  const Real t207 = top_jointbx1_x * Real(0.06992681194351041) - t184 * t204;
+  const Real t213 = (t197 * t207 + (t191 * t204 + (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y *
+      tie_rods0bf0_x))) / (t190 * t197 - (t177 * t191 - (Real(0.14) * tie_rods0bf1_y - Real(0.02) *
+      tie_rods0bf1_x)));
+  const Real t216 = t196 * (t207 - t190 * t213);
+  const Real t221 = t183 * (t173 * t216 + (t204 + t177 * t213));
   const Real h2b_x = c2 * Real(0.275) - s2 * Real(0.025);
-  const Real h1c_x = q1r1_z * Real(3.84) - (q1r1_y * Real(1.6) - Real(11.73));
+  const Real h1c_x = q1r1_y * Real(1.6) - (q1r1_z * Real(3.84) + Real(11.73));
   const Real h1c_y = q1r2_z * Real(3.84) - (q1r2_y * Real(1.6) - Real(0.64));
-  const Real h0b_x = c0 * h1c_x + s0 * h1c_y;
+  const Real h0b_x = c0 * h1c_x - s0 * h1c_y;
   const Real strutbx_x = c0 * Real(0.22);
   const Real strutbx_y = s0 * Real(0.22);
-  const Real strutbv0_x = state.z[0] * strutbx_y;
-  const Real strutbv0_y = state.z[0] * strutbx_x;
   const Real strutd_y = strutbx_x - Real(0.10000000000000003);
   const Real strutd_z = strutbx_y - Real(0.41000000000000003);
-  const Real strut_ll = strutd_y * strutd_y + (strutd_z * strutd_z + Real(1e-18));
+  const Real strut_ll = strutd_z * strutd_z + (strutd_y * strutd_y + Real(1e-18));
   const Real strut_l = detail::square_root(strut_ll);
-  const Real strut_rate = (strutbv0_x * strutd_y - strutbv0_y * strutd_z) / strut_l;
+  const Real strut_rate = (strutd_y * (state.z[0] * strutbx_y) - strutd_z * (state.z[0] * strutbx_x)) /
+      strut_l;
   const Real strut_e = strut_l - model.free_length;
   const Real strut_T = strut_e * model.stiffness - strut_rate * model.damping;
   const Real strut_Tl = strut_T / strut_l;
-  const Real strutf_y = strutd_y * strut_Tl;
-  const Real strutf_z = strutd_z * strut_Tl;
-  const Real wheel_centerx1p_x = q1r1_x * Real(0.01) - (Real(0.34) + (q1r1_z * Real(0.12) - q1r1_y *
-      Real(0.06)));
-  const Real wheel_centerx1p_y = q1r2_x * Real(0.01) + (Real(0.02) + (q1r2_z * Real(0.12) - q1r2_y *
-      Real(0.06)));
-  const Real expression_4 = s0 * wheel_centerx1p_x + (input.u[0] + c0 * wheel_centerx1p_y) +
-      Real(0.11750000000000002);
+  const Real wheel_centerx1p_x = Real(0.34) - q1r1_x * Real(0.01) + (q1r1_z * Real(0.12) - q1r1_y *
+      Real(0.06));
+  const Real wheel_centerx1p_y = Real(0.02) + q1r2_x * Real(0.01) + (q1r2_z * Real(0.12) - q1r2_y *
+      Real(0.06));
+  const Real expression_4 = s0 * wheel_centerx1p_x - (c0 * wheel_centerx1p_y + (input.u[0] +
+      Real(0.11750000000000002)));
   const Real expression_5 = expression_4 * model.tyre;
   const Real tyre_forcef1_x = top_joints2bf1_x * expression_5;
   const Real tyre_forcef1_y = top_joints2bf1_y * expression_5;
@@ -915,17 +910,18 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real tyre_forcem_x = Real(0.12) * tyre_forcef1_y + Real(0.06) * tyre_forcef1_z;
   const Real tyre_forcem_y = Real(0.01) * tyre_forcef1_z - Real(0.12) * tyre_forcef1_x;
   const Real tyre_forcem_z = Real(0.01) * tyre_forcef1_y + Real(0.06) * tyre_forcef1_x;
-  const Real qloadf1p_x = q1r1_y * tyre_forcef1_y - (q1r1_x * tyre_forcef1_x - q1r1_z * tyre_forcef1_z);
-  const Real qloadf1p_y = q1r2_y * tyre_forcef1_y + (q1r2_x * tyre_forcef1_x + q1r2_z * tyre_forcef1_z);
+  const Real qloadf1p_x = q1r1_z * tyre_forcef1_z - (q1r1_x * tyre_forcef1_x - q1r1_y * tyre_forcef1_y);
+  const Real qloadf1p_y = q1r2_z * tyre_forcef1_z + (q1r2_x * tyre_forcef1_x + q1r2_y * tyre_forcef1_y);
   const Real g1_x = top_joints2bf1_x * Real(9.81);
-  const Real q_1 = top_joints2bf1_z * Real(15.696000000000002) - (tyre_forcem_x - top_joints2bf1_y *
+  const Real q_1 = tyre_forcem_x + (top_joints2bf1_z * Real(15.696000000000002) + top_joints2bf1_y *
       Real(37.6704));
-  const Real q_2 = tyre_forcem_y + Real(3.84) * g1_x;
-  const Real q_3 = tyre_forcem_z - Real(1.6) * g1_x;
-  q[0] = -(strutbx_y * strutf_y - (strutbx_x * strutf_z - (q1r0_x * tyre_forcem_x - (q1r0_y * tyre_forcem_y +
-      (q1r0_z * tyre_forcem_z + (Real(0.02) * qloadf1p_x - (Real(0.34) * qloadf1p_y - (h0b_x * Real(9.81) -
-      (t221 * q_1 - (t216 * q_2 - (t213 * q_3 - t166 * (top_joints2bm_x * t221 - (top_jointbx1_x -
-      (top_joints2bm_y * t216 - top_joints2bm_z * t213))) * h2b_x * Real(9.786103333048876))))))))))));
+  const Real q_2 = tyre_forcem_y - Real(3.84) * g1_x;
+  const Real q_3 = tyre_forcem_z + Real(1.6) * g1_x;
+  q[0] = -((top_joints2bm_x * t221 - (top_joints2bm_y * t216 + (top_jointbx1_x + top_joints2bm_z * t213))) *
+      (t166 * (h2b_x * Real(9.786103333048876))) - (t221 * q_1 - (t216 * q_2 + (t213 * q_3 + (strut_Tl *
+      (strutbx_y * strutd_y) - (strut_Tl * (strutbx_x * strutd_z) - (Real(0.02) * qloadf1p_x - Real(0.34) *
+      qloadf1p_y - (q1r0_x * tyre_forcem_x - h0b_x * Real(9.81) - (q1r0_y * tyre_forcem_y + q1r0_z *
+      tyre_forcem_z)))))))));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -941,7 +937,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real q113 = q1d3 * state.y[2];
   const Real q102 = q1d2 * state.y[1];
   const Real q103 = q1d3 * state.y[1];
-  const Real q1r0_x = q122 + q133 - Real(1.0);
+  const Real q1r0_x = q133 + (q122 - Real(1.0));
   const Real q1r0_y = q112 - q103;
   const Real q1r0_z = q113 + q102;
   const Real top_jointax_y = c2 * Real(0.03132205098267723) + s2 * Real(0.24);
@@ -957,20 +953,20 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real q1r2_y = q123 + q101;
   const Real q1r2_z = q122 - t34;
   const Real top_jointax_x = s2 * Real(0.03132205098267723) - c2 * Real(0.24);
-  const Real top_jointbx1p_x = q1r1_z * Real(0.31) - (q1r1_x - q1r1_y) * Real(0.03) + Real(0.34);
-  const Real top_jointbx1p_y = q1r2_z * Real(0.31) + Real(0.03) * (q1r2_x + q1r2_y) + Real(0.02);
-  const Real top_jointbx1_x = c0 * top_jointbx1p_x + s0 * top_jointbx1p_y;
-  const Real top_jointbx1_y = c0 * top_jointbx1p_y - s0 * top_jointbx1p_x;
+  const Real top_jointbx1p_x = (q1r1_x - q1r1_y) * Real(0.03) - (q1r1_z * Real(0.31) + Real(0.34));
+  const Real top_jointbx1p_y = Real(0.03) * (q1r2_x + q1r2_y) + (q1r2_z * Real(0.31) + Real(0.02));
+  const Real top_jointbx1_x = c0 * top_jointbx1p_x - s0 * top_jointbx1p_y;
+  const Real top_jointbx1_y = c0 * top_jointbx1p_y + s0 * top_jointbx1p_x;
   const detail::Angle<Real> expression = detail::Angle<Real>(state.t) * model.rate;
   Real s, c;
   detail::sine_cosine(expression, s, c);
   const Real expression_2 = Real(1.0) - c;
   const Real expression_3 = expression_2 * model.c1;
-  const Real tie_rodbx1p_x = q1r1_y * Real(0.02) + (q1r1_z * Real(0.07) + (Real(0.34) - q1r1_x * Real(0.14)));
-  const Real tie_rodbx1p_y = q1r2_y * Real(0.02) + (q1r2_z * Real(0.07) + (Real(0.02) + q1r2_x * Real(0.14)));
+  const Real tie_rodbx1p_x = Real(0.34) - q1r1_x * Real(0.14) + (q1r1_z * Real(0.07) + q1r1_y * Real(0.02));
+  const Real tie_rodbx1p_y = Real(0.02) + q1r2_x * Real(0.14) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02));
   const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
   const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) - q1r0_y * Real(0.02)) + Real(0.14);
+  const Real tie_rodd_x = q1r0_z * Real(0.07) + Real(0.14) + (q1r0_x * Real(0.14) - q1r0_y * Real(0.02));
   const Real tie_rodd_y = expression_3 - tie_rodbx1_x;
   const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
   const Real t101 = q1r0_z * Real(0.03);
@@ -996,42 +992,39 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real tie_rods0bm_x = Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z;
   const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y + (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
   const Real derivative = s * model.c2;
-  const Real tie_rods0at = tie_rods0bf0_x * derivative;
-  const Real t171 = Real(1.0) / top_joints2am_z;
-  const Real t172 = top_jointax_y * t171;
-  const Real t178 = top_joints2bm_y * t172 + (t110 + Real(0.31) * top_joints1bf1_x);
-  const Real t182 = top_joints2bm_z * t172 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
-  const Real t188 = Real(1.0) / (top_joints2bm_x * t172 + (Real(0.31) * top_joints1bf1_y - t110));
-  const Real t189 = (top_joints2bm_x * Real(0.06992681194351041) + (q1r0_y * Real(0.31) + t101)) * t188;
-  const Real t193 = t178 * t189 - (top_joints2bm_y * Real(0.06992681194351041) - (t101 - q1r0_x *
+  const Real t170 = Real(1.0) / top_joints2am_z;
+  const Real t171 = top_jointax_y * t170;
+  const Real t177 = top_joints2bm_y * t171 + (t110 + Real(0.31) * top_joints1bf1_x);
+  const Real t181 = top_joints2bm_z * t171 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
+  const Real t187 = Real(1.0) / (top_joints2bm_x * t171 + (Real(0.31) * top_joints1bf1_y - t110));
+  const Real t188 = (top_joints2bm_x * Real(0.06992681194351041) + (q1r0_y * Real(0.31) + t101)) * t187;
+  const Real t192 = t177 * t188 - (top_joints2bm_y * Real(0.06992681194351041) - (t101 - q1r0_x *
       Real(0.31)));
-  const Real t195 = t193 * Real(0.0967741935483871);
-  const Real t196 = tie_rods0bm_x * t188;
-  const Real t201 = Real(1.0) / t193;
-  const Real t202 = (t178 * t196 - (Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x)) * t201;
-  const Real t207 = Real(1.0) / (t195 * t202 - (t182 * t196 - (Real(0.14) * tie_rods0bf1_y - Real(0.02) *
+  const Real t194 = t192 * Real(0.0967741935483871);
+  const Real t195 = tie_rods0bm_x * t187;
+  const Real t200 = Real(1.0) / t192;
+  const Real t201 = (t177 * t195 - (Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x)) * t200;
+  const Real t206 = Real(1.0) / (t194 * t201 - (t181 * t195 - (Real(0.14) * tie_rods0bf1_y - Real(0.02) *
       tie_rods0bf1_x)));
-  const Real t209 = top_jointbx1_y - top_jointbx1_x * t172;
-  const Real t212 = top_jointbx1_x * Real(0.06992681194351041) + t189 * t209;
-  const Real t218 = t207 * (t202 * t212 - (t196 * t209 + (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y *
+  const Real t208 = top_jointbx1_y + top_jointbx1_x * t171;
+  const Real t211 = top_jointbx1_x * Real(0.06992681194351041) - t188 * t208;
+  const Real t217 = t206 * (t201 * t211 + (t195 * t208 + (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y *
       tie_rods0bf0_x)));
-  const Real t221 = t201 * (t212 - t195 * t218);
-  const Real t226 = t188 * (t182 * t218 - (t209 - t178 * t221));
-  const Real t233 = t171 * (top_joints2bm_z * t218 + (top_joints2bm_y * t221 + (top_jointbx1_x -
-      top_joints2bm_x * t226)));
-  const Real t238 = t233 * state.z[0];
-  const Real t239 = tie_rods0at * t207;
+  const Real t220 = t200 * (t211 - t194 * t217);
+  const Real t225 = t187 * (t177 * t220 + (t208 + t181 * t217));
+  const Real t232 = t170 * (top_joints2bm_x * t225 - (top_joints2bm_y * t220 + (top_jointbx1_x +
+      top_joints2bm_z * t217)));
+  const Real t237 = t232 * state.z[0];
+  const Real t239 = t206 * (tie_rods0bf0_x * derivative);
   const Real t240 = Real(0.0967741935483871) * t239;
-  const Real t241 = t226 * state.z[0] + t240;
-  const Real t242 = t221 * state.z[0] - t240;
-  const Real t243 = t218 * state.z[0] + t239;
-  const Real top_jointam2t_y = top_jointax_x * t238;
-  const Real t246 = Real(0.03) * t243;
-  const Real top_jointbm1t_x = Real(0.31) * t242 + t246;
-  const Real top_jointbm1t_y = t246 - Real(0.31) * t241;
+  const Real t241 = t225 * state.z[0] - t240;
+  const Real t242 = t220 * state.z[0] + t240;
+  const Real t243 = t217 * state.z[0] - t239;
+  const Real t245 = Real(0.03) * t243;
+  const Real top_jointbm1t_x = Real(0.31) * t242 + t245;
+  const Real top_jointbm1t_y = t245 - Real(0.31) * t241;
   const Real top_jointbm1t_z = Real(0.03) * (t241 + t242);
-  const Real top_jointam2t_x = top_jointax_y * t238;
-  const Real top_jointam2a_y = t238 * top_jointam2t_x;
+  const Real top_jointam2a_y = t237 * (top_jointax_y * t237);
   const Real top_jointam2app_x = top_jointam2a_y * Real(0.0697564737441253);
   const Real top_jointbm1a_x = t242 * top_jointbm1t_z + t243 * top_jointbm1t_y;
   const Real top_jointbm1a_y = t241 * top_jointbm1t_z + t243 * top_jointbm1t_x;
@@ -1042,7 +1035,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
       top_jointbm1t_y);
   const Real top_jointbm1vp_x = c0 * top_jointbm1vpp_x + s0 * top_jointbm1vpp_y;
   const Real top_jointbm0t_x = top_jointbx1_y * state.z[0];
-  const Real top_jointam2a_x = t238 * top_jointam2t_y;
+  const Real top_jointam2a_x = t237 * (top_jointax_x * t237);
   const Real top_jointbm1vp_y = c0 * top_jointbm1vpp_y - s0 * top_jointbm1vpp_x;
   const Real top_jointbm1app_x = q1r1_z * top_jointbm1a_z + (q1r1_x * top_jointbm1a_x - q1r1_y *
       top_jointbm1a_y);
@@ -1051,7 +1044,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real top_jointbm0t_y = top_jointbx1_x * state.z[0];
   const Real top_jointbm0b_y = top_jointbm0t_y + Real(2.0) * top_jointbm1vp_y;
   const Real top_jointam2app_z = Real(0.9975640502598242) * top_jointam2a_y;
-  const Real top_jointbm0b_x = top_jointbm0t_x - Real(2.0) * top_jointbm1vp_x;
+  const Real top_jointbm0b_x = top_jointbm0t_x + Real(2.0) * top_jointbm1vp_x;
   const Real top_jointda_z = state.z[0] * top_jointbm0b_x + (s0 * top_jointbm1app_x + (top_jointam2app_z - c0
       * top_jointbm1app_y));
   const Real tie_rodbm1t_x = Real(0.07) * t242 + Real(0.02) * t243;
@@ -1064,8 +1057,8 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real tie_rodbm1vp_y = c0 * tie_rodbm1vpp_y - s0 * tie_rodbm1vpp_x;
   const Real tie_rodbm0t_x = tie_rodbx1_y * state.z[0];
   const Real tie_rodbm0t_y = tie_rodbx1_x * state.z[0];
-  const Real tie_rodbm0v_y = tie_rodbm1vp_y + tie_rodbm0t_y;
-  const Real tie_roddv_y = tie_rodbm0t_x - (derivative + tie_rodbm1vp_x);
+  const Real tie_rodbm0v_y = tie_rodbm1vp_y - tie_rodbm0t_y;
+  const Real tie_roddv_y = tie_rodbm1vp_x - (derivative - tie_rodbm0t_x);
   const Real derivative_2 = c * model.c3;
   const Real tie_rodbm1a_x = t242 * tie_rodbm1t_z + t243 * tie_rodbm1t_y;
   const Real tie_rodbm1a_y = t241 * tie_rodbm1t_z + t243 * tie_rodbm1t_x;
@@ -1073,20 +1066,20 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real tie_rodbm1app_x = q1r1_z * tie_rodbm1a_z + (q1r1_x * tie_rodbm1a_x - q1r1_y * tie_rodbm1a_y);
   const Real tie_rodbm1app_y = q1r2_z * tie_rodbm1a_z - (q1r2_x * tie_rodbm1a_x + q1r2_y * tie_rodbm1a_y);
   const Real tie_rodbm1app_z = q1r0_z * tie_rodbm1a_z - (q1r0_x * tie_rodbm1a_x - q1r0_y * tie_rodbm1a_y);
-  const Real tie_rodbm0b_x = tie_rodbm0t_x - Real(2.0) * tie_rodbm1vp_x;
+  const Real tie_rodbm0b_x = tie_rodbm0t_x + Real(2.0) * tie_rodbm1vp_x;
   const Real tie_rodbm0b_y = tie_rodbm1vp_y + tie_rodbm0v_y;
   const Real tie_rodbm0a_y = state.z[0] * tie_rodbm0b_x - (c0 * tie_rodbm1app_y - s0 * tie_rodbm1app_x);
-  const Real tie_rodda_y = state.z[0] * tie_rodbm0b_y - (s0 * tie_rodbm1app_y - (derivative_2 - c0 *
+  const Real tie_rodda_y = state.z[0] * tie_rodbm0b_y + (s0 * tie_rodbm1app_y - (derivative_2 - c0 *
       tie_rodbm1app_x));
-  const Real t396 = t172 * top_jointda_z + (state.z[0] * top_jointbm0b_y - (s0 * top_jointbm1app_y -
+  const Real t396 = t171 * top_jointda_z - (state.z[0] * top_jointbm0b_y + (s0 * top_jointbm1app_y -
       (top_jointam2a_x - c0 * top_jointbm1app_x)));
-  const Real t403 = t189 * t396 - (Real(0.06992681194351041) * top_jointda_z + (q1r0_z * top_jointbm1a_z +
-      (q1r0_y * top_jointbm1a_y - (top_jointam2app_x + q1r0_x * top_jointbm1a_x))));
-  const Real t414 = t207 * (Real(3.123475237772121) * (tie_rodd_y * tie_rodda_y - (tie_rodd_z * tie_rodbm0a_y
-      - (tie_rodd_x * tie_rodbm1app_z + (tie_roddv_y * tie_roddv_y + (tie_rodbm1vpp_z * tie_rodbm1vpp_z +
-      tie_rodbm0v_y * tie_rodbm0v_y))))) + (t196 * t396 - t202 * t403));
-  const Real t417 = t201 * (t403 + t195 * t414);
-  const Real t422 = t188 * (t182 * t414 + (t396 - t178 * t417));
+  const Real t403 = t188 * t396 - (Real(0.06992681194351041) * top_jointda_z - (top_jointam2app_x + q1r0_x *
+      top_jointbm1a_x - (q1r0_y * top_jointbm1a_y + q1r0_z * top_jointbm1a_z)));
+  const Real t414 = t206 * (t201 * t403 - (t195 * t396 - Real(3.123475237772121) * (tie_rodd_y * tie_rodda_y +
+      (tie_rodd_z * tie_rodbm0a_y - (tie_rodbm1vpp_z * tie_rodbm1vpp_z + tie_rodd_x * tie_rodbm1app_z +
+      (tie_rodbm0v_y * tie_rodbm0v_y + tie_roddv_y * tie_roddv_y))))));
+  const Real t417 = t200 * (t403 - t194 * t414);
+  const Real t422 = t187 * (t177 * t417 - (t396 - t181 * t414));
   const Real h1at1_x = q1r1_y * Real(1.6) - q1r1_z * Real(3.84);
   const Real h1at1_y = q1r2_y * Real(1.6) - q1r2_z * Real(3.84);
   const Real S1at1r0_y = q1r1_y * Real(0.33) - q1r1_z * Real(0.192);
@@ -1095,10 +1088,10 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real S1at1r1_z = q1r2_z * Real(1.1108) - q1r2_y * Real(0.192);
   const Real p_1_1f_x = q1r1_z * Real(1.6) + q1r1_y * Real(3.84);
   const Real p_1_1f_y = q1r2_z * Real(1.6) + q1r2_y * Real(3.84);
-  const Real p_1_1n_z = q1r0_x * Real(1.4408) - (Real(0.02) * p_1_1f_x - Real(0.34) * p_1_1f_y);
-  const Real t482 = q1r1_x * Real(0.0768) + q1r2_x * Real(1.3056);
-  const Real p_2_1n_z = q1r0_y * Real(1.7608) - (q1r0_z * Real(0.192) - t482);
-  const Real p_3_1n_z = q1r0_z * Real(0.98) - (q1r0_y * Real(0.192) + t482 * Real(0.4166666666666667));
+  const Real p_1_1n_z = Real(0.34) * p_1_1f_y - (Real(0.02) * p_1_1f_x - q1r0_x * Real(1.4408));
+  const Real t481 = q1r1_x * Real(0.0768) + q1r2_x * Real(1.3056);
+  const Real p_2_1n_z = t481 - (q1r0_z * Real(0.192) - q1r0_y * Real(1.7608));
+  const Real p_3_1n_z = t481 * Real(0.4166666666666667) + (q1r0_y * Real(0.192) - q1r0_z * Real(0.98));
   const Real h2b_x = c2 * Real(0.275) - s2 * Real(0.025);
   const Real h1c_x = h1at1_x - Real(11.73);
   const Real h1c_y = h1at1_y - Real(0.64);
@@ -1108,24 +1101,21 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real w1p_z = q1r0_z * state.z[0];
   const Real strutbx_x = c0 * Real(0.22);
   const Real strutbx_y = s0 * Real(0.22);
-  const Real strutbv0_x = state.z[0] * strutbx_y;
-  const Real strutbv0_y = state.z[0] * strutbx_x;
   const Real strutd_y = strutbx_x - Real(0.10000000000000003);
   const Real strutd_z = strutbx_y - Real(0.41000000000000003);
-  const Real strut_ll = strutd_y * strutd_y + strutd_z * strutd_z + Real(1e-18);
+  const Real strut_ll = strutd_z * strutd_z + (strutd_y * strutd_y + Real(1e-18));
   const Real strut_l = detail::square_root(strut_ll);
-  const Real strut_rate = (strutbv0_x * strutd_y - strutbv0_y * strutd_z) / strut_l;
+  const Real strut_rate = (strutd_y * (state.z[0] * strutbx_y) - strutd_z * (state.z[0] * strutbx_x)) /
+      strut_l;
   const Real strut_e = strut_l - model.free_length;
   const Real strut_T = strut_e * model.stiffness - strut_rate * model.damping;
   const Real strut_Tl = strut_T / strut_l;
-  const Real strutf_y = strutd_y * strut_Tl;
-  const Real strutf_z = strutd_z * strut_Tl;
-  const Real wheel_centerx1p_x = q1r1_y * Real(0.06) - (q1r1_z * Real(0.12) + (Real(0.34) - q1r1_x *
-      Real(0.01)));
-  const Real wheel_centerx1p_y = q1r2_y * Real(0.06) - (q1r2_z * Real(0.12) + (Real(0.02) + q1r2_x *
-      Real(0.01)));
-  const Real expression_4 = c0 * wheel_centerx1p_y - (input.u[0] + s0 * wheel_centerx1p_x) -
-      Real(0.11750000000000002);
+  const Real wheel_centerx1p_x = Real(0.34) - q1r1_x * Real(0.01) + (q1r1_z * Real(0.12) - q1r1_y *
+      Real(0.06));
+  const Real wheel_centerx1p_y = Real(0.02) + q1r2_x * Real(0.01) + (q1r2_z * Real(0.12) - q1r2_y *
+      Real(0.06));
+  const Real expression_4 = s0 * wheel_centerx1p_x - (c0 * wheel_centerx1p_y + (input.u[0] +
+      Real(0.11750000000000002)));
   const Real expression_5 = expression_4 * model.tyre;
   const Real tyre_forcef1_x = top_joints2bf1_x * expression_5;
   const Real tyre_forcef1_y = top_joints2bf1_y * expression_5;
@@ -1142,40 +1132,40 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real rK1_x = Real(0.65) * w1p_x;
   const Real rK1_y = Real(0.33) * w1p_y + Real(0.192) * w1p_z;
   const Real rK1_z = Real(1.1108) * w1p_z + Real(0.192) * w1p_y;
-  const Real ru1_x = t241 - Real(2.0) * w1p_x;
-  const Real ru1_y = t242 - Real(2.0) * w1p_y;
-  const Real ru1_z = t243 - Real(2.0) * w1p_z;
+  const Real ru1_x = t241 + Real(2.0) * w1p_x;
+  const Real ru1_y = t242 + Real(2.0) * w1p_y;
+  const Real ru1_z = t243 + Real(2.0) * w1p_z;
   const Real rSu1_x = Real(0.65) * ru1_x;
   const Real rSu1_y = Real(0.33) * ru1_y + Real(0.192) * ru1_z;
   const Real rSu1_z = Real(1.1108) * ru1_z + Real(0.192) * ru1_y;
   const Real ruh1 = Real(1.6) * ru1_y + Real(3.84) * ru1_z;
-  const Real ruw1 = t243 * ru1_z + (t241 * ru1_x + t242 * ru1_y);
+  const Real ruw1 = t241 * ru1_x + (t242 * ru1_y + t243 * ru1_z);
   const Real rQp2 = h2b_x * Real(9.786103333048876);
-  const Real rdn2_z = t171 * (top_joints2bm_z * t414 - (top_joints2bm_y * t417 - (top_jointda_z -
-      top_joints2bm_x * t422))) * Real(0.0505);
-  const Real ref1_x = t241 * ruh1 - (t417 * Real(3.84) + (tyre_forcef1_x + t414 * Real(1.6)));
-  const Real ref1_y = t242 * ruh1 - (t422 * Real(3.84) - (tyre_forcef1_y - Real(1.6) * ruw1));
-  const Real ref1_z = t243 * ruh1 - (Real(3.84) * ruw1 + (tyre_forcef1_z - t422 * Real(1.6)));
-  const Real ren1_x = t243 * rSu1_y - (t242 * rSu1_z - (t422 * Real(1.4408) - (Real(0.12) * tyre_forcef1_y +
+  const Real rdn2_z = (top_joints2bm_x * t422 - (top_joints2bm_y * t417 - (top_jointda_z - top_joints2bm_z *
+      t414))) * (t170 * Real(0.0505));
+  const Real ref1_x = t417 * Real(3.84) - (t414 * Real(1.6) - (tyre_forcef1_x - t241 * ruh1));
+  const Real ref1_y = t422 * Real(3.84) - (Real(1.6) * ruw1 - (tyre_forcef1_y + t242 * ruh1));
+  const Real ref1_z = t422 * Real(1.6) + (Real(3.84) * ruw1 + (tyre_forcef1_z - t243 * ruh1));
+  const Real ren1_x = t422 * Real(1.4408) - (t243 * rSu1_y - (t242 * rSu1_z + (Real(0.12) * tyre_forcef1_y +
       Real(0.06) * tyre_forcef1_z)));
-  const Real ren1_y = t243 * rSu1_x - (t241 * rSu1_z - (t417 * Real(1.7608) + (t414 * Real(0.192) -
+  const Real ren1_y = t417 * Real(1.7608) - (t414 * Real(0.192) - (t243 * rSu1_x - (t241 * rSu1_z +
       (Real(0.01) * tyre_forcef1_z - Real(0.12) * tyre_forcef1_x))));
-  const Real ren1_z = t242 * rSu1_x - (t241 * rSu1_y - (t414 * Real(0.98) + (t417 * Real(0.192) + (Real(0.01)
+  const Real ren1_z = t417 * Real(0.192) - (t414 * Real(0.98) - (t242 * rSu1_x - (t241 * rSu1_y - (Real(0.01)
       * tyre_forcef1_y + Real(0.06) * tyre_forcef1_x))));
-  const Real rf1p_x = q1r1_z * ref1_z - (q1r1_x * ref1_x + q1r1_y * ref1_y);
-  const Real rf1p_y = q1r2_z * ref1_z + (q1r2_x * ref1_x - q1r2_y * ref1_y);
-  const Real rQ1_0 = ren1_x + (w1p_z * rK1_y - (w1p_y * rK1_z - (Real(1.6) * ra1_z + Real(3.84) * ra1_y)));
-  const Real rQ1_1 = ren1_y + (w1p_z * rK1_x + (Real(3.84) * ra1_x - w1p_x * rK1_z));
-  const Real rQ1_2 = ren1_z + (w1p_y * rK1_x + (Real(1.6) * ra1_x - w1p_x * rK1_y));
+  const Real rf1p_x = q1r1_z * ref1_z - (q1r1_x * ref1_x - q1r1_y * ref1_y);
+  const Real rf1p_y = q1r2_z * ref1_z + (q1r2_x * ref1_x + q1r2_y * ref1_y);
+  const Real rQ1_0 = ren1_x - (Real(3.84) * ra1_y + (Real(1.6) * ra1_z - (w1p_y * rK1_z - w1p_z * rK1_y)));
+  const Real rQ1_1 = ren1_y + (Real(3.84) * ra1_x - (w1p_x * rK1_z - w1p_z * rK1_x));
+  const Real rQ1_2 = ren1_z + (Real(1.6) * ra1_x - (w1p_x * rK1_y - w1p_y * rK1_x));
   const Real rQ2_0 = rQp2 - rdn2_z;
-  zdot[0] = (t233 * rQ2_0 - (t218 * rQ1_2 - (t221 * rQ1_1 - (t226 * rQ1_0 - (Real(0.34) * rf1p_y - (Real(0.02)
-      * rf1p_x - (q1r0_z * ren1_z - (q1r0_y * ren1_y - (q1r0_x * ren1_x + (rQp0 - (strutbx_x * strutf_z -
-      strutbx_y * strutf_y))))))))))) / ((q1r1_x * q1r1_x + q1r2_x * q1r2_x) * Real(0.65) + (q1r1_y *
-      S1at1r0_y + (q1r1_z * S1at1r0_z - (h1at1_x * Real(0.68) - (q1r2_y * S1at1r1_y + (q1r2_z * S1at1r1_z -
-      (h1at1_y * Real(0.04) - (t233 * t233 * Real(0.0505) - (t226 * (p_1_1n_z + (p_1_1n_z - t226 *
-      Real(1.4408))) - (t218 * (t218 * Real(0.98) - (p_3_1n_z + (p_3_1n_z + t221 * Real(0.192)))) - t221 *
-      (t218 * Real(0.192) + (p_2_1n_z + (p_2_1n_z - t221 * Real(1.7608)))))))))))) +
-      Real(3.9165000000000005)));
+  zdot[0] = (t232 * rQ2_0 - (t225 * rQ1_0 + (q1r0_x * ren1_x - (q1r0_z * ren1_z - t220 * rQ1_1 + (t217 * rQ1_2
+      - (q1r0_y * ren1_y - (strut_Tl * (strutbx_y * strutd_y) - (strut_Tl * (strutbx_x * strutd_z) -
+      rQp0))))))) + (Real(0.02) * rf1p_x - Real(0.34) * rf1p_y)) / (t232 * (t232 * Real(0.0505)) + (t225 *
+      (t225 * Real(1.4408) + (p_1_1n_z + p_1_1n_z)) + (t220 * (t220 * Real(1.7608) - (t217 * Real(0.192) -
+      (p_2_1n_z + p_2_1n_z))) - (t217 * (t220 * Real(0.192) - (t217 * Real(0.98) - (p_3_1n_z + p_3_1n_z))) -
+      ((q1r1_x * q1r1_x + q1r2_x * q1r2_x) * Real(0.65) + Real(3.9165000000000005) + (q1r1_y * S1at1r0_y +
+      q1r1_z * S1at1r0_z) + (q1r2_y * S1at1r1_y + q1r2_z * S1at1r1_z - (h1at1_x * Real(0.68) + h1at1_y *
+      Real(0.04))))))));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -1191,7 +1181,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real q113 = q1d3 * state.y[2];
   const Real q102 = q1d2 * state.y[1];
   const Real q103 = q1d3 * state.y[1];
-  const Real q1r0_x = q122 + q133 - Real(1.0);
+  const Real q1r0_x = q133 + (q122 - Real(1.0));
   const Real q1r0_y = q112 - q103;
   const Real q1r0_z = q113 + q102;
   const Real top_jointax_y = c2 * Real(0.03132205098267723) + s2 * Real(0.24);
@@ -1207,20 +1197,20 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real q1r2_y = q123 + q101;
   const Real q1r2_z = q122 - t34;
   const Real top_jointax_x = s2 * Real(0.03132205098267723) - c2 * Real(0.24);
-  const Real top_jointbx1p_x = q1r1_z * Real(0.31) - (q1r1_x - q1r1_y) * Real(0.03) + Real(0.34);
-  const Real top_jointbx1p_y = q1r2_z * Real(0.31) + Real(0.03) * (q1r2_x + q1r2_y) + Real(0.02);
-  const Real top_jointbx1_x = c0 * top_jointbx1p_x + s0 * top_jointbx1p_y;
-  const Real top_jointbx1_y = c0 * top_jointbx1p_y - s0 * top_jointbx1p_x;
+  const Real top_jointbx1p_x = (q1r1_x - q1r1_y) * Real(0.03) - (q1r1_z * Real(0.31) + Real(0.34));
+  const Real top_jointbx1p_y = Real(0.03) * (q1r2_x + q1r2_y) + (q1r2_z * Real(0.31) + Real(0.02));
+  const Real top_jointbx1_x = c0 * top_jointbx1p_x - s0 * top_jointbx1p_y;
+  const Real top_jointbx1_y = c0 * top_jointbx1p_y + s0 * top_jointbx1p_x;
   const detail::Angle<Real> expression = detail::Angle<Real>(state.t) * model.rate;
   Real s, c;
   detail::sine_cosine(expression, s, c);
   const Real expression_2 = Real(1.0) - c;
   const Real expression_3 = expression_2 * model.c1;
-  const Real tie_rodbx1p_x = q1r1_y * Real(0.02) + (q1r1_z * Real(0.07) + (Real(0.34) - q1r1_x * Real(0.14)));
-  const Real tie_rodbx1p_y = q1r2_y * Real(0.02) + (q1r2_z * Real(0.07) + (Real(0.02) + q1r2_x * Real(0.14)));
+  const Real tie_rodbx1p_x = Real(0.34) - q1r1_x * Real(0.14) + (q1r1_z * Real(0.07) + q1r1_y * Real(0.02));
+  const Real tie_rodbx1p_y = Real(0.02) + q1r2_x * Real(0.14) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02));
   const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
   const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) - q1r0_y * Real(0.02)) + Real(0.14);
+  const Real tie_rodd_x = q1r0_z * Real(0.07) + Real(0.14) + (q1r0_x * Real(0.14) - q1r0_y * Real(0.02));
   const Real tie_rodd_y = expression_3 - tie_rodbx1_x;
   const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
   const Real t101 = q1r0_z * Real(0.03);
@@ -1246,42 +1236,39 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real tie_rods0bm_x = Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z;
   const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y + (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
   const Real derivative = s * model.c2;
-  const Real tie_rods0at = tie_rods0bf0_x * derivative;
-  const Real t171 = Real(1.0) / top_joints2am_z;
-  const Real t172 = top_jointax_y * t171;
-  const Real t178 = top_joints2bm_y * t172 + (t110 + Real(0.31) * top_joints1bf1_x);
-  const Real t182 = top_joints2bm_z * t172 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
-  const Real t188 = Real(1.0) / (top_joints2bm_x * t172 + (Real(0.31) * top_joints1bf1_y - t110));
-  const Real t189 = (top_joints2bm_x * Real(0.06992681194351041) + (q1r0_y * Real(0.31) + t101)) * t188;
-  const Real t193 = t178 * t189 - (top_joints2bm_y * Real(0.06992681194351041) - (t101 - q1r0_x *
+  const Real t170 = Real(1.0) / top_joints2am_z;
+  const Real t171 = top_jointax_y * t170;
+  const Real t177 = top_joints2bm_y * t171 + (t110 + Real(0.31) * top_joints1bf1_x);
+  const Real t181 = top_joints2bm_z * t171 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
+  const Real t187 = Real(1.0) / (top_joints2bm_x * t171 + (Real(0.31) * top_joints1bf1_y - t110));
+  const Real t188 = (top_joints2bm_x * Real(0.06992681194351041) + (q1r0_y * Real(0.31) + t101)) * t187;
+  const Real t192 = t177 * t188 - (top_joints2bm_y * Real(0.06992681194351041) - (t101 - q1r0_x *
       Real(0.31)));
-  const Real t195 = t193 * Real(0.0967741935483871);
-  const Real t196 = tie_rods0bm_x * t188;
-  const Real t201 = Real(1.0) / t193;
-  const Real t202 = (t178 * t196 - (Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x)) * t201;
-  const Real t207 = Real(1.0) / (t195 * t202 - (t182 * t196 - (Real(0.14) * tie_rods0bf1_y - Real(0.02) *
+  const Real t194 = t192 * Real(0.0967741935483871);
+  const Real t195 = tie_rods0bm_x * t187;
+  const Real t200 = Real(1.0) / t192;
+  const Real t201 = (t177 * t195 - (Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x)) * t200;
+  const Real t206 = Real(1.0) / (t194 * t201 - (t181 * t195 - (Real(0.14) * tie_rods0bf1_y - Real(0.02) *
       tie_rods0bf1_x)));
-  const Real t209 = top_jointbx1_y - top_jointbx1_x * t172;
-  const Real t212 = top_jointbx1_x * Real(0.06992681194351041) + t189 * t209;
-  const Real t218 = t207 * (t202 * t212 - (t196 * t209 + (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y *
+  const Real t208 = top_jointbx1_y + top_jointbx1_x * t171;
+  const Real t211 = top_jointbx1_x * Real(0.06992681194351041) - t188 * t208;
+  const Real t217 = t206 * (t201 * t211 + (t195 * t208 + (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y *
       tie_rods0bf0_x)));
-  const Real t221 = t201 * (t212 - t195 * t218);
-  const Real t226 = t188 * (t182 * t218 - (t209 - t178 * t221));
-  const Real t233 = t171 * (top_joints2bm_z * t218 + (top_joints2bm_y * t221 + (top_jointbx1_x -
-      top_joints2bm_x * t226)));
-  const Real t238 = t233 * state.z[0];
-  const Real t239 = tie_rods0at * t207;
+  const Real t220 = t200 * (t211 - t194 * t217);
+  const Real t225 = t187 * (t177 * t220 + (t208 + t181 * t217));
+  const Real t232 = t170 * (top_joints2bm_x * t225 - (top_joints2bm_y * t220 + (top_jointbx1_x +
+      top_joints2bm_z * t217)));
+  const Real t237 = t232 * state.z[0];
+  const Real t239 = t206 * (tie_rods0bf0_x * derivative);
   const Real t240 = Real(0.0967741935483871) * t239;
-  const Real t241 = t226 * state.z[0] + t240;
-  const Real t242 = t221 * state.z[0] - t240;
-  const Real t243 = t218 * state.z[0] + t239;
-  const Real top_jointam2t_y = top_jointax_x * t238;
-  const Real t246 = Real(0.03) * t243;
-  const Real top_jointbm1t_x = Real(0.31) * t242 + t246;
-  const Real top_jointbm1t_y = t246 - Real(0.31) * t241;
+  const Real t241 = t225 * state.z[0] - t240;
+  const Real t242 = t220 * state.z[0] + t240;
+  const Real t243 = t217 * state.z[0] - t239;
+  const Real t245 = Real(0.03) * t243;
+  const Real top_jointbm1t_x = Real(0.31) * t242 + t245;
+  const Real top_jointbm1t_y = t245 - Real(0.31) * t241;
   const Real top_jointbm1t_z = Real(0.03) * (t241 + t242);
-  const Real top_jointam2t_x = top_jointax_y * t238;
-  const Real top_jointam2a_y = t238 * top_jointam2t_x;
+  const Real top_jointam2a_y = t237 * (top_jointax_y * t237);
   const Real top_jointam2app_x = top_jointam2a_y * Real(0.0697564737441253);
   const Real top_jointbm1a_x = t242 * top_jointbm1t_z + t243 * top_jointbm1t_y;
   const Real top_jointbm1a_y = t241 * top_jointbm1t_z + t243 * top_jointbm1t_x;
@@ -1292,7 +1279,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
       top_jointbm1t_y);
   const Real top_jointbm1vp_x = c0 * top_jointbm1vpp_x + s0 * top_jointbm1vpp_y;
   const Real top_jointbm0t_x = top_jointbx1_y * state.z[0];
-  const Real top_jointam2a_x = t238 * top_jointam2t_y;
+  const Real top_jointam2a_x = t237 * (top_jointax_x * t237);
   const Real top_jointbm1vp_y = c0 * top_jointbm1vpp_y - s0 * top_jointbm1vpp_x;
   const Real top_jointbm1app_x = q1r1_z * top_jointbm1a_z + (q1r1_x * top_jointbm1a_x - q1r1_y *
       top_jointbm1a_y);
@@ -1301,7 +1288,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real top_jointbm0t_y = top_jointbx1_x * state.z[0];
   const Real top_jointbm0b_y = top_jointbm0t_y + Real(2.0) * top_jointbm1vp_y;
   const Real top_jointam2app_z = Real(0.9975640502598242) * top_jointam2a_y;
-  const Real top_jointbm0b_x = top_jointbm0t_x - Real(2.0) * top_jointbm1vp_x;
+  const Real top_jointbm0b_x = top_jointbm0t_x + Real(2.0) * top_jointbm1vp_x;
   const Real top_jointda_z = state.z[0] * top_jointbm0b_x + (s0 * top_jointbm1app_x + (top_jointam2app_z - c0
       * top_jointbm1app_y));
   const Real tie_rodbm1t_x = Real(0.07) * t242 + Real(0.02) * t243;
@@ -1314,8 +1301,8 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real tie_rodbm1vp_y = c0 * tie_rodbm1vpp_y - s0 * tie_rodbm1vpp_x;
   const Real tie_rodbm0t_x = tie_rodbx1_y * state.z[0];
   const Real tie_rodbm0t_y = tie_rodbx1_x * state.z[0];
-  const Real tie_rodbm0v_y = tie_rodbm1vp_y + tie_rodbm0t_y;
-  const Real tie_roddv_y = tie_rodbm0t_x - (derivative + tie_rodbm1vp_x);
+  const Real tie_rodbm0v_y = tie_rodbm1vp_y - tie_rodbm0t_y;
+  const Real tie_roddv_y = tie_rodbm1vp_x - (derivative - tie_rodbm0t_x);
   const Real derivative_2 = c * model.c3;
   const Real tie_rodbm1a_x = t242 * tie_rodbm1t_z + t243 * tie_rodbm1t_y;
   const Real tie_rodbm1a_y = t241 * tie_rodbm1t_z + t243 * tie_rodbm1t_x;
@@ -1323,23 +1310,23 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real tie_rodbm1app_x = q1r1_z * tie_rodbm1a_z + (q1r1_x * tie_rodbm1a_x - q1r1_y * tie_rodbm1a_y);
   const Real tie_rodbm1app_y = q1r2_z * tie_rodbm1a_z - (q1r2_x * tie_rodbm1a_x + q1r2_y * tie_rodbm1a_y);
   const Real tie_rodbm1app_z = q1r0_z * tie_rodbm1a_z - (q1r0_x * tie_rodbm1a_x - q1r0_y * tie_rodbm1a_y);
-  const Real tie_rodbm0b_x = tie_rodbm0t_x - Real(2.0) * tie_rodbm1vp_x;
+  const Real tie_rodbm0b_x = tie_rodbm0t_x + Real(2.0) * tie_rodbm1vp_x;
   const Real tie_rodbm0b_y = tie_rodbm1vp_y + tie_rodbm0v_y;
   const Real tie_rodbm0a_y = state.z[0] * tie_rodbm0b_x - (c0 * tie_rodbm1app_y - s0 * tie_rodbm1app_x);
-  const Real tie_rodda_y = state.z[0] * tie_rodbm0b_y - (s0 * tie_rodbm1app_y - (derivative_2 - c0 *
+  const Real tie_rodda_y = state.z[0] * tie_rodbm0b_y + (s0 * tie_rodbm1app_y - (derivative_2 - c0 *
       tie_rodbm1app_x));
-  const Real t396 = t172 * top_jointda_z + (state.z[0] * top_jointbm0b_y - (s0 * top_jointbm1app_y -
+  const Real t396 = t171 * top_jointda_z - (state.z[0] * top_jointbm0b_y + (s0 * top_jointbm1app_y -
       (top_jointam2a_x - c0 * top_jointbm1app_x)));
-  const Real t403 = t189 * t396 - (Real(0.06992681194351041) * top_jointda_z + (q1r0_z * top_jointbm1a_z +
-      (q1r0_y * top_jointbm1a_y - (top_jointam2app_x + q1r0_x * top_jointbm1a_x))));
-  const Real t414 = t207 * (Real(3.123475237772121) * (tie_rodd_y * tie_rodda_y - (tie_rodd_z * tie_rodbm0a_y
-      - (tie_rodd_x * tie_rodbm1app_z + (tie_roddv_y * tie_roddv_y + (tie_rodbm1vpp_z * tie_rodbm1vpp_z +
-      tie_rodbm0v_y * tie_rodbm0v_y))))) + (t196 * t396 - t202 * t403));
-  const Real t417 = t201 * (t403 + t195 * t414);
-  const Real t422 = t188 * (t182 * t414 + (t396 - t178 * t417));
-  const Real t432 = t422 + t226 * zdot[0];
-  const Real t434 = t417 - t221 * zdot[0];
-  const Real t436 = t414 + t218 * zdot[0];
+  const Real t403 = t188 * t396 - (Real(0.06992681194351041) * top_jointda_z - (top_jointam2app_x + q1r0_x *
+      top_jointbm1a_x - (q1r0_y * top_jointbm1a_y + q1r0_z * top_jointbm1a_z)));
+  const Real t414 = t206 * (t201 * t403 - (t195 * t396 - Real(3.123475237772121) * (tie_rodd_y * tie_rodda_y +
+      (tie_rodd_z * tie_rodbm0a_y - (tie_rodbm1vpp_z * tie_rodbm1vpp_z + tie_rodd_x * tie_rodbm1app_z +
+      (tie_rodbm0v_y * tie_rodbm0v_y + tie_roddv_y * tie_roddv_y))))));
+  const Real t417 = t200 * (t403 - t194 * t414);
+  const Real t422 = t187 * (t177 * t417 - (t396 - t181 * t414));
+  const Real t432 = t422 + t225 * zdot[0];
+  const Real t434 = t417 + t220 * zdot[0];
+  const Real t436 = t414 + t217 * zdot[0];
   const Real h2b_x = c2 * Real(0.275) - s2 * Real(0.025);
   const Real h1at1_x = q1r1_y * Real(1.6) - q1r1_z * Real(3.84);
   const Real h1at1_y = q1r2_y * Real(1.6) - q1r2_z * Real(3.84);
@@ -1349,84 +1336,80 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real S1at1r1_z = q1r2_z * Real(1.1108) - q1r2_y * Real(0.192);
   const Real h1c_x = h1at1_x - Real(11.73);
   const Real h1c_y = h1at1_y - Real(0.64);
-  const Real S0b_zz = (q1r1_x * q1r1_x + q1r2_x * q1r2_x) * Real(0.65) + (q1r1_y * S1at1r0_y + (q1r1_z *
-      S1at1r0_z - (h1at1_x * Real(0.68) - (q1r2_y * S1at1r1_y + (q1r2_z * S1at1r1_z - h1at1_y * Real(0.04)))))
-      + Real(3.9165000000000005));
+  const Real S0b_zz = (q1r1_x * q1r1_x + q1r2_x * q1r2_x) * Real(0.65) + Real(3.9165000000000005) + (q1r1_y *
+      S1at1r0_y + q1r1_z * S1at1r0_z) + (q1r2_y * S1at1r1_y + q1r2_z * S1at1r1_z - (h1at1_x * Real(0.68) +
+      h1at1_y * Real(0.04)));
   const Real h0b_x = c0 * h1c_x + s0 * h1c_y;
   const Real w1p_x = q1r0_x * state.z[0];
   const Real w1p_y = q1r0_y * state.z[0];
   const Real w1p_z = q1r0_z * state.z[0];
   const Real strutbx_x = c0 * Real(0.22);
   const Real strutbx_y = s0 * Real(0.22);
-  const Real strutbv0_x = state.z[0] * strutbx_y;
-  const Real strutbv0_y = state.z[0] * strutbx_x;
   const Real strutd_y = strutbx_x - Real(0.10000000000000003);
   const Real strutd_z = strutbx_y - Real(0.41000000000000003);
-  const Real strut_ll = strutd_y * strutd_y + strutd_z * strutd_z + Real(1e-18);
+  const Real strut_ll = strutd_z * strutd_z + (strutd_y * strutd_y + Real(1e-18));
   const Real strut_l = detail::square_root(strut_ll);
-  const Real strut_rate = (strutbv0_x * strutd_y - strutbv0_y * strutd_z) / strut_l;
+  const Real strut_rate = (strutd_y * (state.z[0] * strutbx_y) - strutd_z * (state.z[0] * strutbx_x)) /
+      strut_l;
   const Real strut_e = strut_l - model.free_length;
   const Real strut_T = strut_e * model.stiffness - strut_rate * model.damping;
   const Real strut_Tl = strut_T / strut_l;
-  const Real strutf_y = strutd_y * strut_Tl;
-  const Real strutf_z = strutd_z * strut_Tl;
-  const Real wheel_centerx1p_x = q1r1_y * Real(0.06) - (q1r1_z * Real(0.12) + (Real(0.34) - q1r1_x *
-      Real(0.01)));
-  const Real wheel_centerx1p_y = q1r2_y * Real(0.06) - (q1r2_z * Real(0.12) + (Real(0.02) + q1r2_x *
-      Real(0.01)));
-  const Real expression_4 = c0 * wheel_centerx1p_y - s0 * wheel_centerx1p_x - Real(0.11750000000000002);
+  const Real wheel_centerx1p_x = Real(0.34) - q1r1_x * Real(0.01) + (q1r1_z * Real(0.12) - q1r1_y *
+      Real(0.06));
+  const Real wheel_centerx1p_y = Real(0.02) + q1r2_x * Real(0.01) + (q1r2_z * Real(0.12) - q1r2_y *
+      Real(0.06));
+  const Real expression_4 = s0 * wheel_centerx1p_x - (c0 * wheel_centerx1p_y + Real(0.11750000000000002));
   const Real expression_5 = expression_4 * model.tyre;
   const Real tyre_forcef1_x = top_joints2bf1_x * expression_5;
   const Real tyre_forcef1_y = top_joints2bf1_y * expression_5;
   const Real tyre_forcef1_z = top_joints2bf1_z * expression_5;
   const Real aQp0 = h0b_x * Real(9.81);
   const Real adn0_z = zdot[0] * S0b_zz;
-  const Real aal1_x = q1r0_x * zdot[0];
   const Real aal1_y = q1r0_y * zdot[0];
   const Real aal1_z = q1r0_z * zdot[0];
   const Real aL0a_x = s0 * Real(9.81);
   const Real aL0a_y = c0 * Real(9.81);
   const Real aL0w22 = state.z[0] * state.z[0];
-  const Real aa1o_x = Real(0.34) * aL0w22 - (aL0a_x + Real(0.02) * zdot[0]);
-  const Real aa1o_y = Real(0.34) * zdot[0] + (aL0a_y + Real(0.02) * aL0w22);
-  const Real aa1_x = q1r1_x * aa1o_x - q1r2_x * aa1o_y;
-  const Real aa1_y = q1r1_y * aa1o_x + q1r2_y * aa1o_y;
-  const Real aa1_z = q1r1_z * aa1o_x + q1r2_z * aa1o_y;
+  const Real aa1o_x = aL0a_x + (Real(0.02) * zdot[0] - Real(0.34) * aL0w22);
+  const Real aa1o_y = aL0a_y + (Real(0.02) * aL0w22 + Real(0.34) * zdot[0]);
+  const Real aa1_x = q1r1_x * aa1o_x + q1r2_x * aa1o_y;
+  const Real aa1_y = q1r1_y * aa1o_x - q1r2_y * aa1o_y;
+  const Real aa1_z = q1r1_z * aa1o_x - q1r2_z * aa1o_y;
   const Real aK1_x = Real(0.65) * w1p_x;
   const Real aK1_y = Real(0.33) * w1p_y + Real(0.192) * w1p_z;
   const Real aK1_z = Real(1.1108) * w1p_z + Real(0.192) * w1p_y;
-  const Real au1_x = t241 - Real(2.0) * w1p_x;
-  const Real au1_y = t242 - Real(2.0) * w1p_y;
-  const Real au1_z = t243 - Real(2.0) * w1p_z;
+  const Real au1_x = t241 + Real(2.0) * w1p_x;
+  const Real au1_y = t242 + Real(2.0) * w1p_y;
+  const Real au1_z = t243 + Real(2.0) * w1p_z;
   const Real aSu1_x = Real(0.65) * au1_x;
   const Real aSu1_y = Real(0.33) * au1_y + Real(0.192) * au1_z;
   const Real aSu1_z = Real(1.1108) * au1_z + Real(0.192) * au1_y;
   const Real auh1 = Real(1.6) * au1_y + Real(3.84) * au1_z;
-  const Real auw1 = t243 * au1_z + (t241 * au1_x + t242 * au1_y);
+  const Real auw1 = t241 * au1_x + (t242 * au1_y + t243 * au1_z);
   const Real aQp2 = h2b_x * Real(9.786103333048876);
-  const Real adn2_z = (t171 * (top_joints2bm_z * t414 - (top_joints2bm_y * t417 - (top_jointda_z -
-      top_joints2bm_x * t422))) + t233 * zdot[0]) * Real(0.0505);
-  const Real aef1_x = t241 * auh1 - (t434 * Real(3.84) + (tyre_forcef1_x + t436 * Real(1.6)));
-  const Real aef1_y = t242 * auh1 - (t432 * Real(3.84) - (tyre_forcef1_y - Real(1.6) * auw1));
-  const Real aef1_z = t243 * auh1 - (Real(3.84) * auw1 + (tyre_forcef1_z - t432 * Real(1.6)));
-  const Real aen1_x = t243 * aSu1_y - (t242 * aSu1_z - (t432 * Real(1.4408) - (Real(0.12) * tyre_forcef1_y +
+  const Real adn2_z = (t170 * (top_joints2bm_x * t422 - (top_joints2bm_y * t417 - (top_jointda_z -
+      top_joints2bm_z * t414))) + t232 * zdot[0]) * Real(0.0505);
+  const Real aef1_x = t434 * Real(3.84) - (t436 * Real(1.6) - (tyre_forcef1_x - t241 * auh1));
+  const Real aef1_y = t432 * Real(3.84) - (Real(1.6) * auw1 - (tyre_forcef1_y + t242 * auh1));
+  const Real aef1_z = t432 * Real(1.6) + (Real(3.84) * auw1 + (tyre_forcef1_z - t243 * auh1));
+  const Real aen1_x = t432 * Real(1.4408) - (t243 * aSu1_y - (t242 * aSu1_z + (Real(0.12) * tyre_forcef1_y +
       Real(0.06) * tyre_forcef1_z)));
-  const Real aen1_y = t243 * aSu1_x - (t241 * aSu1_z - (t434 * Real(1.7608) + (t436 * Real(0.192) -
+  const Real aen1_y = t434 * Real(1.7608) - (t436 * Real(0.192) - (t243 * aSu1_x - (t241 * aSu1_z +
       (Real(0.01) * tyre_forcef1_z - Real(0.12) * tyre_forcef1_x))));
-  const Real aen1_z = t242 * aSu1_x - (t241 * aSu1_y - (t436 * Real(0.98) + (t434 * Real(0.192) + (Real(0.01)
+  const Real aen1_z = t434 * Real(0.192) - (t436 * Real(0.98) - (t242 * aSu1_x - (t241 * aSu1_y - (Real(0.01)
       * tyre_forcef1_y + Real(0.06) * tyre_forcef1_x))));
-  const Real af1p_x = q1r1_z * aef1_z - (q1r1_x * aef1_x + q1r1_y * aef1_y);
-  const Real af1p_y = q1r2_z * aef1_z + (q1r2_x * aef1_x - q1r2_y * aef1_y);
-  const Real aQ1_0 = aen1_x + (w1p_z * aK1_y - (w1p_y * aK1_z + (Real(3.84) * aa1_y + (aal1_x * Real(1.4408) +
-      Real(1.6) * aa1_z))));
-  const Real aQ1_1 = aen1_y + (w1p_z * aK1_x - (w1p_x * aK1_z + (Real(3.84) * aa1_x + (Real(0.192) * aal1_z -
+  const Real af1p_x = q1r1_z * aef1_z - (q1r1_x * aef1_x - q1r1_y * aef1_y);
+  const Real af1p_y = q1r2_z * aef1_z + (q1r2_x * aef1_x + q1r2_y * aef1_y);
+  const Real aQ1_0 = aen1_x - (Real(3.84) * aa1_y + (Real(1.6) * aa1_z + (w1p_z * aK1_y - (q1r0_x * (zdot[0] *
+      Real(1.4408)) + w1p_y * aK1_z))));
+  const Real aQ1_1 = aen1_y + (Real(3.84) * aa1_x + (w1p_z * aK1_x - (w1p_x * aK1_z + (Real(0.192) * aal1_z -
       aal1_y * Real(1.7608)))));
-  const Real aQ1_2 = aen1_z + (w1p_y * aK1_x - (w1p_x * aK1_y + (aal1_z * Real(0.98) - (Real(0.192) * aal1_y -
-      Real(1.6) * aa1_x))));
+  const Real aQ1_2 = aen1_z + (Real(1.6) * aa1_x + (w1p_y * aK1_x - (w1p_x * aK1_y - (Real(0.192) * aal1_y -
+      aal1_z * Real(0.98)))));
   const Real aQ2_0 = aQp2 - adn2_z;
-  tau[0] = -(t233 * aQ2_0 - (t218 * aQ1_2 - (t221 * aQ1_1 - (t226 * aQ1_0 - (Real(0.34) * af1p_y - (Real(0.02)
-      * af1p_x - (q1r0_z * aen1_z - (q1r0_y * aen1_y - (q1r0_x * aen1_x - (adn0_z - (aQp0 - (strutbx_x *
-      strutf_z - strutbx_y * strutf_y))))))))))));
+  tau[0] = -(Real(0.02) * af1p_x - (t225 * aQ1_0 + (q1r0_x * aen1_x - (q1r0_z * aen1_z - t220 * aQ1_1 + (t217
+      * aQ1_2 - (q1r0_y * aen1_y - (strut_Tl * (strutbx_y * strutd_y) - (strut_Tl * (strutbx_x * strutd_z) -
+      (aQp0 - adn0_z)))))))) - (Real(0.34) * af1p_y - t232 * aQ2_0));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -1441,7 +1424,7 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real q113 = q1d3 * state.y[2];
   const Real q102 = q1d2 * state.y[1];
   const Real q103 = q1d3 * state.y[1];
-  const Real q1r0_x = q122 + q133 - Real(1.0);
+  const Real q1r0_x = q133 + (q122 - Real(1.0));
   const Real q1r0_y = q112 - q103;
   const Real q1r0_z = q113 + q102;
   const Real top_jointax_y = c2 * Real(0.03132205098267723) + s2 * Real(0.24);
@@ -1457,19 +1440,19 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real q1r2_y = q123 + q101;
   const Real q1r2_z = q122 - t34;
   const Real top_jointax_x = s2 * Real(0.03132205098267723) - c2 * Real(0.24);
-  const Real top_jointbx1p_x = q1r1_z * Real(0.31) - (q1r1_x - q1r1_y) * Real(0.03) + Real(0.34);
-  const Real top_jointbx1p_y = q1r2_z * Real(0.31) + Real(0.03) * (q1r2_x + q1r2_y) + Real(0.02);
-  const Real top_jointbx1_x = c0 * top_jointbx1p_x + s0 * top_jointbx1p_y;
+  const Real top_jointbx1p_x = (q1r1_x - q1r1_y) * Real(0.03) - (q1r1_z * Real(0.31) + Real(0.34));
+  const Real top_jointbx1p_y = Real(0.03) * (q1r2_x + q1r2_y) + (q1r2_z * Real(0.31) + Real(0.02));
+  const Real top_jointbx1_x = c0 * top_jointbx1p_x - s0 * top_jointbx1p_y;
   const detail::Angle<Real> expression = detail::Angle<Real>(state.t) * model.rate;
   Real s, c;
   detail::sine_cosine(expression, s, c);
   const Real expression_2 = Real(1.0) - c;
   const Real expression_3 = expression_2 * model.c1;
-  const Real tie_rodbx1p_x = q1r1_y * Real(0.02) + (q1r1_z * Real(0.07) + (Real(0.34) - q1r1_x * Real(0.14)));
-  const Real tie_rodbx1p_y = q1r2_y * Real(0.02) + (q1r2_z * Real(0.07) + (Real(0.02) + q1r2_x * Real(0.14)));
+  const Real tie_rodbx1p_x = Real(0.34) - q1r1_x * Real(0.14) + (q1r1_z * Real(0.07) + q1r1_y * Real(0.02));
+  const Real tie_rodbx1p_y = Real(0.02) + q1r2_x * Real(0.14) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02));
   const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
   const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) - q1r0_y * Real(0.02)) + Real(0.14);
+  const Real tie_rodd_x = q1r0_z * Real(0.07) + Real(0.14) + (q1r0_x * Real(0.14) - q1r0_y * Real(0.02));
   const Real tie_rodd_y = expression_3 - tie_rodbx1_x;
   const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
   const Real t100 = q1r0_z * Real(0.03);
@@ -1495,47 +1478,42 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real tie_rods0bm_x = Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z;
   const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y + (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
   const Real derivative = s * model.c2;
-  const Real tie_rods0at = tie_rods0bf0_x * derivative;
-  const Real t170 = Real(1.0) / top_joints2am_z;
-  const Real t171 = top_jointax_y * t170;
-  const Real t177 = top_joints2bm_y * t171 + (t109 + Real(0.31) * top_joints1bf1_x);
-  const Real t181 = top_joints2bm_z * t171 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
-  const Real t187 = Real(1.0) / (top_joints2bm_x * t171 + (Real(0.31) * top_joints1bf1_y - t109));
-  const Real t188 = (top_joints2bm_x * Real(0.06992681194351041) + (q1r0_y * Real(0.31) + t100)) * t187;
-  const Real t192 = t177 * t188 - (top_joints2bm_y * Real(0.06992681194351041) - (t100 - q1r0_x *
+  const Real t169 = Real(1.0) / top_joints2am_z;
+  const Real t170 = top_jointax_y * t169;
+  const Real t176 = top_joints2bm_y * t170 + (t109 + Real(0.31) * top_joints1bf1_x);
+  const Real t180 = top_joints2bm_z * t170 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
+  const Real t186 = Real(1.0) / (top_joints2bm_x * t170 + (Real(0.31) * top_joints1bf1_y - t109));
+  const Real t187 = (top_joints2bm_x * Real(0.06992681194351041) + (q1r0_y * Real(0.31) + t100)) * t186;
+  const Real t191 = t176 * t187 - (top_joints2bm_y * Real(0.06992681194351041) - (t100 - q1r0_x *
       Real(0.31)));
-  const Real t194 = t192 * Real(0.0967741935483871);
-  const Real t195 = tie_rods0bm_x * t187;
-  const Real t200 = Real(1.0) / t192;
-  const Real t201 = (t177 * t195 - (Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x)) * t200;
-  const Real t206 = Real(1.0) / (t194 * t201 - (t181 * t195 - (Real(0.14) * tie_rods0bf1_y - Real(0.02) *
+  const Real t193 = t191 * Real(0.0967741935483871);
+  const Real t194 = tie_rods0bm_x * t186;
+  const Real t199 = Real(1.0) / t191;
+  const Real t200 = (t176 * t194 - (Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x)) * t199;
+  const Real t205 = Real(1.0) / (t193 * t200 - (t180 * t194 - (Real(0.14) * tie_rods0bf1_y - Real(0.02) *
       tie_rods0bf1_x)));
-  const Real t209 = top_jointbx1_x * t171 - (c0 * top_jointbx1p_y - s0 * top_jointbx1p_x);
-  const Real t212 = top_jointbx1_x * Real(0.06992681194351041) - t188 * t209;
-  const Real t218 = t206 * (t201 * t212 + (t195 * t209 - (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y *
+  const Real t208 = top_jointbx1_x * t170 + (c0 * top_jointbx1p_y + s0 * top_jointbx1p_x);
+  const Real t211 = top_jointbx1_x * Real(0.06992681194351041) - t187 * t208;
+  const Real t217 = t205 * (t200 * t211 + (t194 * t208 + (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y *
       tie_rods0bf0_x)));
-  const Real t221 = t200 * (t212 - t194 * t218);
-  const Real t226 = t187 * (t181 * t218 + (t209 + t177 * t221));
-  const Real t238 = t170 * (top_joints2bm_z * t218 + (top_joints2bm_y * t221 + (top_jointbx1_x -
-      top_joints2bm_x * t226))) * state.z[0];
-  const Real t239 = tie_rods0at * t206;
+  const Real t220 = t199 * (t211 - t193 * t217);
+  const Real t225 = t186 * (t176 * t220 + (t208 + t180 * t217));
+  const Real t237 = (top_joints2bm_x * t225 - (top_joints2bm_y * t220 + (top_jointbx1_x + top_joints2bm_z *
+      t217))) * (t169 * state.z[0]);
+  const Real t239 = t205 * (tie_rods0bf0_x * derivative);
   const Real t240 = Real(0.0967741935483871) * t239;
-  const Real t241 = t226 * state.z[0] + t240;
-  const Real t242 = t221 * state.z[0] - t240;
-  const Real t243 = t218 * state.z[0] + t239;
+  const Real t241 = t225 * state.z[0] - t240;
+  const Real t242 = t220 * state.z[0] + t240;
+  const Real t243 = t217 * state.z[0] - t239;
   const Real h1at1_x = q1r1_y * Real(1.6) - q1r1_z * Real(3.84);
   const Real h1at1_y = q1r2_y * Real(1.6) - q1r2_z * Real(3.84);
   const Real S1at1r0_y = q1r1_y * Real(0.33) - q1r1_z * Real(0.192);
   const Real S1at1r0_z = q1r1_z * Real(1.1108) - q1r1_y * Real(0.192);
   const Real S1at1r1_y = q1r2_y * Real(0.33) - q1r2_z * Real(0.192);
   const Real S1at1r1_z = q1r2_z * Real(1.1108) - q1r2_y * Real(0.192);
-  const Real S0b_zz = (q1r1_x * q1r1_x + q1r2_x * q1r2_x) * Real(0.65) + (q1r1_y * S1at1r0_y + (q1r1_z *
-      S1at1r0_z - (h1at1_x * Real(0.68) - (q1r2_y * S1at1r1_y + (q1r2_z * S1at1r1_z - h1at1_y * Real(0.04)))))
-      + Real(3.9165000000000005));
-  const Real w1p_x = q1r0_x * state.z[0];
-  const Real w1p_y = q1r0_y * state.z[0];
-  const Real w1p_z = q1r0_z * state.z[0];
-  const Real v0L_z = state.z[0] * S0b_zz;
+  const Real S0b_zz = (q1r1_x * q1r1_x + q1r2_x * q1r2_x) * Real(0.65) + Real(3.9165000000000005) + (q1r1_y *
+      S1at1r0_y + q1r1_z * S1at1r0_z) + (q1r2_y * S1at1r1_y + q1r2_z * S1at1r1_z - (h1at1_x * Real(0.68) +
+      h1at1_y * Real(0.04)));
   const Real v1o_x = Real(0.02) * state.z[0];
   const Real v1o_y = Real(0.34) * state.z[0];
   const Real v1_x = q1r1_x * v1o_x + q1r2_x * v1o_y;
@@ -1545,9 +1523,10 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real v1L_x = t241 * Real(1.4408);
   const Real v1L_y = t243 * Real(0.192) - t242 * Real(1.7608);
   const Real v1L_z = t242 * Real(0.192) - t243 * Real(0.98);
-  const Real T3 = (derivative * derivative * Real(3.0) + (t238 * t238 * Real(0.0505) + (state.z[0] * v0L_z -
-      (t243 * v1L_z - (t241 * v1L_x - t242 * v1L_y))))) * Real(0.5) + (Real(1.6) * (t241 * v1_z) + (Real(3.84)
-      * (t241 * v1_y) + (v1_x * v1P_x + (w1p_z * v1L_z - (w1p_x * v1L_x - w1p_y * v1L_y)))));
+  const Real T3 = (t237 * (t237 * Real(0.0505)) + (t241 * v1L_x - (t243 * v1L_z + (t242 * v1L_y - (S0b_zz *
+      (state.z[0] * state.z[0]) + derivative * (derivative * Real(3.0))))))) * Real(0.5) - (t241 * (Real(1.6)
+      * v1_z) + (v1L_y * (q1r0_y * state.z[0]) + v1L_z * (q1r0_z * state.z[0])) - (v1L_x * (q1r0_x *
+      state.z[0]) - (v1_x * v1P_x + t241 * (Real(3.84) * v1_y))));
   return T3;
 }
 
@@ -1568,20 +1547,17 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
   const Real q1r2_y = q123 + q101;
   const Real q1r2_z = q122 + t20;
   const Real h2b_y = s2 * Real(0.275) + c2 * Real(0.025);
-  const Real h1at1_x = q1r1_y * Real(1.6) - q1r1_z * Real(3.84);
-  const Real h1at1_y = q1r2_y * Real(1.6) - q1r2_z * Real(3.84);
-  const Real h1c_x = h1at1_x - Real(11.73);
-  const Real h1c_y = h1at1_y - Real(0.64);
-  const Real h0b_y = c0 * h1c_y - s0 * h1c_x;
-  const Real hg3_z = h0b_y + h2b_y * Real(0.9975640502598242) + Real(9.753256088156396);
+  const Real h1c_x = q1r1_y * Real(1.6) - (q1r1_z * Real(3.84) + Real(11.73));
+  const Real h1c_y = q1r2_z * Real(3.84) - (q1r2_y * Real(1.6) - Real(0.64));
+  const Real hg3_z = h2b_y * Real(0.9975640502598242) - (s0 * h1c_x + (c0 * h1c_y - Real(9.753256088156396)));
   const Real strutbx_x = c0 * Real(0.22);
   const Real strutbx_y = s0 * Real(0.22);
   const Real strutd_y = strutbx_x - Real(0.10000000000000003);
   const Real strutd_z = strutbx_y - Real(0.41000000000000003);
-  const Real strut_ll = strutd_y * strutd_y + Real(1e-18) + strutd_z * strutd_z;
+  const Real strut_ll = strutd_z * strutd_z + (strutd_y * strutd_y + Real(1e-18));
   const Real strut_l = detail::square_root(strut_ll);
   const Real strut_e = strut_l - model.free_length;
-  const Real V = hg3_z * Real(9.81) + strut_e * strut_e * model.c8;
+  const Real V = hg3_z * Real(9.81) + strut_e * (strut_e * model.c8);
   return V;
 }
 
@@ -1618,16 +1594,17 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
   const Real top_joints2bf1_y = c0 * q1r2_y - s0 * q1r1_y;
   const Real top_joints2bf1_z = c0 * q1r2_z - s0 * q1r1_z;
   const Real top_joints2bf1_x = c0 * q1r2_x + s0 * q1r1_x;
-  const Real wheel_centerx1p_x = q1r1_x * Real(0.01) - Real(0.34) - q1r1_z * Real(0.12) + q1r1_y * Real(0.06);
-  const Real wheel_centerx1p_y = q1r2_x * Real(0.01) + Real(0.02) + q1r2_z * Real(0.12) - q1r2_y * Real(0.06);
-  const Real wheel_centerx1_y = c0 * wheel_centerx1p_y + s0 * wheel_centerx1p_x;
-  const Real wheel_centerx0_z = wheel_centerx1_y - Real(0.21);
-  const Real wheel_centerx1p_z = Real(0.01) + q1r0_x * Real(0.01) + q1r0_z * Real(0.12) + q1r0_y * Real(0.06);
-  const Real wheel_centerx1_x = c0 * wheel_centerx1p_x - s0 * wheel_centerx1p_y;
-  const Real wheel_centerx0_y = wheel_centerx1_x - Real(0.36);
+  const Real wheel_centerx1p_x = q1r1_x * Real(0.01) - Real(0.34) - (q1r1_z * Real(0.12) - q1r1_y *
+      Real(0.06));
+  const Real wheel_centerx1p_y = q1r2_x * Real(0.01) + Real(0.02) + (q1r2_z * Real(0.12) - q1r2_y *
+      Real(0.06));
+  const Real wheel_centerx0_z = s0 * wheel_centerx1p_x + (c0 * wheel_centerx1p_y - Real(0.21));
+  const Real wheel_centerx1p_z = Real(0.01) + q1r0_z * Real(0.12) + (q1r0_x * Real(0.01) + q1r0_y *
+      Real(0.06));
+  const Real wheel_centerx0_y = s0 * wheel_centerx1p_y - (c0 * wheel_centerx1p_x - Real(0.36));
   const Real expression = wheel_centerx0_z + Real(0.31);
   result.wheel.position[0] = wheel_centerx1p_z;
-  result.wheel.position[1] = -wheel_centerx0_y;
+  result.wheel.position[1] = wheel_centerx0_y;
   result.wheel.position[2] = -wheel_centerx0_z;
   result.wheel.rotation[0][0] = -q1r0_x;
   result.wheel.rotation[0][1] = q1r0_y;
@@ -1648,74 +1625,74 @@ void close_loops(const Model<Real>& model, State<Real>& state) noexcept {
   detail::sine_cosine(state.y[0], t1, t2);
   const Real t7 = t2 * Real(0.34) + t1 * Real(0.02);
   const Real t9 = t7 - Real(0.07);
-  const Real t14 = t2 * Real(0.02) - t1 * Real(0.34) - Real(0.21);
-  const Real t16 = t14 + Real(0.4687542479592758);
+  const Real t14 = t1 * Real(0.34) - (t2 * Real(0.02) - Real(0.21));
+  const Real t16 = t14 - Real(0.4687542479592758);
   const Real t20 = detail::cosine(detail::Angle<Real>(state.t) * model.rate);
   const Real t25 = t7 + (t20 - Real(1.0)) * model.c1;
-  const Real t27 = t14 + Real(0.27);
-  const Real t36 = (t9 * t9 + t16 * t16 - Real(0.038545250214686674)) * Real(0.5);
-  const Real t43 = t9 * Real(0.24) - (t16 * Real(0.031245752040724203) + Real(6.077361763854758e-05));
-  const Real t50 = t9 * Real(0.03132205098267723) + (t16 * Real(0.2394153720623578) +
+  const Real t27 = t14 - Real(0.27);
+  const Real t36 = (t16 * t16 + (t9 * t9 - Real(0.038545250214686674))) * Real(0.5);
+  const Real t43 = t16 * Real(0.031245752040724203) + (t9 * Real(0.24) - Real(6.077361763854758e-05));
+  const Real t50 = t16 * Real(0.2394153720623578) - (t9 * Real(0.03132205098267723) +
       Real(0.0004656677253133288));
   const Real t53 = t43 * t43 + t50 * t50;
   const Real t54 = t36 * t36;
   const Real t56 = detail::square_root(t53 - t54);
-  const Real t65 = (t36 * t43 + t50 * t56) / t53;
-  const Real t66 = (t36 * t50 - t43 * t56) / t53;
-  const Real t77 = t65 * Real(0.002184915826985278) - (t66 * Real(0.01674155369859007) -
+  const Real t65 = (t36 * t43 - t50 * t56) / t53;
+  const Real t66 = (t36 * t50 + t43 * t56) / t53;
+  const Real t77 = t66 * Real(0.01674155369859007) + (t65 * Real(0.002184915826985278) +
       Real(0.02781508417301472));
-  const Real t79 = Real(0.24) * t65 - (t9 - Real(0.03132205098267723) * t66);
-  const Real t81 = Real(0.031245752040724203) * t65 + (t16 - Real(0.2394153720623578) * t66);
-  const Real t86 = t2 * t79 + t1 * t81;
-  const Real t87 = t1 * t79 - t2 * t81;
-  const Real t92 = t2 * t25 - t1 * t27;
-  const Real t93 = t1 * t25 + t2 * t27;
-  const Real t103 = t86 * t92 - (t77 * Real(0.14) - t87 * t93);
+  const Real t79 = Real(0.03132205098267723) * t66 + (t9 - Real(0.24) * t65);
+  const Real t81 = Real(0.2394153720623578) * t66 - (t16 - Real(0.031245752040724203) * t65);
+  const Real t86 = t2 * t79 - t1 * t81;
+  const Real t87 = t1 * t79 + t2 * t81;
+  const Real t92 = t2 * t25 + t1 * t27;
+  const Real t93 = t1 * t25 - t2 * t27;
+  const Real t103 = t87 * t93 + (t77 * Real(0.14) + t86 * t92);
   const Real t105 = t103 * Real(10.21450459652707);
-  const Real t109 = Real(0.14) + t77 * t105;
+  const Real t109 = Real(0.14) - t77 * t105;
   const Real t110 = t92 - t86 * t105;
   const Real t111 = t93 - t87 * t105;
-  const Real t117 = Real(1.0) / (t110 * t110 + (t109 * t109 + t111 * t111));
-  const Real t120 = Real(0.5) * (t25 * t25 + t27 * t27 - Real(0.058)) + t103 * Real(0.27068437180796734);
+  const Real t117 = Real(1.0) / (t111 * t111 + (t109 * t109 + t110 * t110));
+  const Real t120 = Real(0.5) * (t27 * t27 + (t25 * t25 - Real(0.058))) - t103 * Real(0.27068437180796734);
   const Real t121 = t117 * t120;
   const Real t133 = t120 * t121 - Real(0.01772686414708887);
   const Real t139 = t77 * Real(3.1960138605029655);
   const Real t140 = t86 * Real(3.1960138605029655);
   const Real t141 = t87 * Real(3.1960138605029655);
   const Real t143 = t121 * Real(7.5107627169405085);
-  const Real t147 = detail::square_root(-(Real(10.21450459652707) * (t117 * t133))) *
+  const Real t147 = detail::square_root(-(t133 * (Real(10.21450459652707) * t117))) *
       Real(7.5107627169405085);
-  const Real t151 = t109 * t143 + (t86 * t111 - t87 * t110) * t147;
-  const Real t152 = t110 * t143 + (t87 * t109 + t77 * t111) * t147;
-  const Real t153 = t111 * t143 - (t77 * t110 + t86 * t109) * t147;
-  const Real t164 = detail::square_root(t140 * t151 + (t139 * t152 + (t139 + (Real(1.0) + t152))));
+  const Real t151 = t109 * t143 - (t86 * t111 - t87 * t110) * t147;
+  const Real t152 = t110 * t143 - (t87 * t109 - t77 * t111) * t147;
+  const Real t153 = t111 * t143 - (t77 * t110 - t86 * t109) * t147;
+  const Real t164 = detail::square_root(t152 + (Real(1.0) + t139) + (t139 * t152 - t140 * t151));
   const Real t166 = Real(0.5) * (Real(1.0) / t164);
-  const Real t168 = t166 * (t140 + t151);
+  const Real t168 = t166 * (t140 - t151);
   const Real t171 = t166 * (t141 * t152 + (t141 - t140 * t153));
-  const Real t174 = t166 * (t139 * t153 + (t153 + t141 * t151));
+  const Real t174 = t166 * (t139 * t153 + (t153 - t141 * t151));
   const Real t175 = Real(0.5) * t164;
-  const Real t194 = t171 * Real(0.42675505450857476) + (t168 * Real(0.5195574227588697) + (t174 *
-      Real(0.524091614422574) + t175 * Real(0.5227505978949086)));
-  const Real t197 = t174 * Real(0.42675505450857476) + (t168 * Real(0.5227505978949086) - (t175 *
-      Real(0.5195574227588697) + t171 * Real(0.524091614422574)));
-  const Real t200 = t175 * Real(0.42675505450857476) - (t168 * Real(0.524091614422574) + (t171 *
-      Real(0.5227505978949086) - t174 * Real(0.5195574227588697)));
-  const Real t207 = t174 * Real(0.5227505978949086) + (t171 * Real(0.5195574227588697) - (t168 *
-      Real(0.42675505450857476) + t175 * Real(0.524091614422574)));
+  const Real t194 = t168 * Real(0.5195574227588697) - t175 * Real(0.5227505978949086) + (t171 *
+      Real(0.42675505450857476) - t174 * Real(0.524091614422574));
+  const Real t197 = t168 * Real(0.5227505978949086) + t175 * Real(0.5195574227588697) - (t174 *
+      Real(0.42675505450857476) + t171 * Real(0.524091614422574));
+  const Real t200 = t168 * Real(0.524091614422574) + t175 * Real(0.42675505450857476) + (t171 *
+      Real(0.5227505978949086) + t174 * Real(0.5195574227588697));
+  const Real t207 = t168 * Real(0.42675505450857476) - t175 * Real(0.524091614422574) - (t171 *
+      Real(0.5195574227588697) - t174 * Real(0.5227505978949086));
   Real t210, t209;
   detail::sine_cosine(state.y[5], t210, t209);
-  const Real t218 = detail::arctangent2(-(t66 * t209 + t65 * t210), t65 * t209 - t66 * t210);
-  const Real t222 = t207 + state.y[1];
-  const Real t225 = t194 + state.y[2];
-  const Real t228 = t197 - state.y[3];
-  const Real t231 = t200 - state.y[4];
-  closed.y[5] = state.y[5] + t218;
+  const Real t217 = detail::arctangent2(t66 * t209 - t65 * t210, t65 * t209 + t66 * t210);
+  const Real t221 = t207 + state.y[1];
+  const Real t224 = t194 - state.y[2];
+  const Real t227 = t197 + state.y[3];
+  const Real t230 = t200 - state.y[4];
+  closed.y[5] = state.y[5] + t217;
   closed.y[1] = -t207;
-  closed.y[2] = -t194;
-  closed.y[3] = t197;
+  closed.y[2] = t194;
+  closed.y[3] = -t197;
   closed.y[4] = t200;
-  closed.regularity = -((Real(1.0) - t54 / t53) * t133 * Real(56.41155659018357));
-  closed.opening = t231 * t231 + (t228 * t228 + (t225 * t225 + (t218 * t218 + t222 * t222)));
+  closed.regularity = -(t133 * ((Real(1.0) - t54 / t53) * Real(56.41155659018357)));
+  closed.opening = t224 * t224 + t227 * t227 + (t230 * t230 + (t217 * t217 + t221 * t221));
   closed.beyond[0] = (state.y[0] + Real(0.3)) * (state.y[0] - Real(0.3));
   state = closed;
 }
@@ -1733,12 +1710,12 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real q113 = q1d3 * state.y[2];
   const Real q102 = q1d2 * state.y[1];
   const Real q103 = q1d3 * state.y[1];
-  const Real q1r0_x = q122 + q133 - Real(1.0);
+  const Real q1r0_x = q133 + (q122 - Real(1.0));
   const Real q1r0_y = q112 - q103;
   const Real q1r0_z = q113 + q102;
   const Real top_jointax_y = c2 * Real(0.03132205098267723) + s2 * Real(0.24);
-  const Real top_jointd_x = (q1r0_x - q1r0_y) * Real(0.03) + (top_jointax_y * Real(0.0697564737441253) +
-      q1r0_z * Real(0.31) + Real(0.02781508417301472));
+  const Real top_jointd_x = top_jointax_y * Real(0.0697564737441253) + ((q1r0_x - q1r0_y) * Real(0.03) +
+      (q1r0_z * Real(0.31) + Real(0.02781508417301472)));
   const Real q1d1 = Real(2.0) * state.y[2];
   const Real q111 = state.y[2] * q1d1;
   const Real q123 = state.y[3] * q1d3;
@@ -1750,26 +1727,26 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real q1r2_x = q113 - q102;
   const Real q1r2_y = q123 + q101;
   const Real q1r2_z = q122 - t45;
-  const Real top_jointbx1p_x = Real(0.31) * q1r1_z - Real(0.03) * (q1r1_x - q1r1_y) + Real(0.34);
-  const Real top_jointbx1p_y = Real(0.31) * q1r2_z + Real(0.03) * (q1r2_x + q1r2_y) + Real(0.02);
-  const Real top_jointd_y = s0 * top_jointbx1p_y + (c0 * top_jointbx1p_x + (s2 * Real(0.03132205098267723) -
-      c2 * Real(0.24))) - Real(0.07);
-  const Real top_jointd_z = s0 * top_jointbx1p_x - (top_jointax_y * Real(0.9975640502598242) + c0 *
-      top_jointbx1p_y) - Real(0.25875424795927576);
+  const Real top_jointbx1p_x = Real(0.03) * (q1r1_x - q1r1_y) - (Real(0.31) * q1r1_z + Real(0.34));
+  const Real top_jointbx1p_y = Real(0.03) * (q1r2_x + q1r2_y) + (Real(0.31) * q1r2_z + Real(0.02));
+  const Real top_jointd_y = c2 * Real(0.24) + c0 * top_jointbx1p_x - (s0 * top_jointbx1p_y + (s2 *
+      Real(0.03132205098267723) - Real(0.07)));
+  const Real top_jointd_z = top_jointax_y * Real(0.9975640502598242) + (s0 * top_jointbx1p_x + (c0 *
+      top_jointbx1p_y + Real(0.25875424795927576)));
   const detail::Angle<Real> expression = detail::Angle<Real>(state.t) * model.rate;
   const Real c = detail::cosine(expression);
   const Real expression_2 = Real(1.0) - c;
   const Real expression_3 = expression_2 * model.c1;
-  const Real tie_rodbx1p_x = q1r1_y * Real(0.02) + (q1r1_z * Real(0.07) + (Real(0.34) - q1r1_x * Real(0.14)));
-  const Real tie_rodbx1p_y = q1r2_y * Real(0.02) + (q1r2_z * Real(0.07) + (Real(0.02) + q1r2_x * Real(0.14)));
-  const Real tie_rodd_x = q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) - q1r0_y * Real(0.02)) + Real(0.14);
-  const Real tie_rodd_y = s0 * tie_rodbx1p_y - (expression_3 - c0 * tie_rodbx1p_x);
-  const Real tie_rodd_z = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x + Real(0.060000000000000026);
-  const Real tie_rodll = tie_rodd_z * tie_rodd_z + (tie_rodd_x * tie_rodd_x + tie_rodd_y * tie_rodd_y);
+  const Real tie_rodbx1p_x = Real(0.34) - q1r1_x * Real(0.14) + (q1r1_z * Real(0.07) + q1r1_y * Real(0.02));
+  const Real tie_rodbx1p_y = Real(0.02) + q1r2_x * Real(0.14) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02));
+  const Real tie_rodd_x = q1r0_z * Real(0.07) + Real(0.14) + (q1r0_x * Real(0.14) - q1r0_y * Real(0.02));
+  const Real tie_rodd_y = expression_3 - (c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y);
+  const Real tie_rodd_z = s0 * tie_rodbx1p_x - (c0 * tie_rodbx1p_y + Real(0.060000000000000026));
+  const Real tie_rodll = tie_rodd_y * tie_rodd_y + (tie_rodd_x * tie_rodd_x + tie_rodd_z * tie_rodd_z);
   const Real g_tie_rod = tie_rodll * Real(1.5617376188860606) - Real(0.16007810593582122);
   g[0] = top_jointd_x;
-  g[1] = top_jointd_y;
-  g[2] = top_jointd_z;
+  g[1] = -top_jointd_y;
+  g[2] = -top_jointd_z;
   g[3] = g_tie_rod;
   g_rate[0] = Real(0.0);
   g_rate[1] = Real(0.0);
@@ -1790,7 +1767,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real q113 = q1d3 * state.y[2];
   const Real q102 = q1d2 * state.y[1];
   const Real q103 = q1d3 * state.y[1];
-  const Real q1r0_x = q122 + q133 - Real(1.0);
+  const Real q1r0_x = q133 + (q122 - Real(1.0));
   const Real q1r0_y = q112 - q103;
   const Real q1r0_z = q113 + q102;
   const Real top_jointax_y = c2 * Real(0.03132205098267723) + s2 * Real(0.24);
@@ -1806,20 +1783,20 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real q1r2_y = q123 + q101;
   const Real q1r2_z = q122 - t34;
   const Real top_jointax_x = s2 * Real(0.03132205098267723) - c2 * Real(0.24);
-  const Real top_jointbx1p_x = q1r1_z * Real(0.31) - (q1r1_x - q1r1_y) * Real(0.03) + Real(0.34);
-  const Real top_jointbx1p_y = q1r2_z * Real(0.31) + Real(0.03) * (q1r2_x + q1r2_y) + Real(0.02);
-  const Real top_jointbx1_x = c0 * top_jointbx1p_x + s0 * top_jointbx1p_y;
-  const Real top_jointbx1_y = c0 * top_jointbx1p_y - s0 * top_jointbx1p_x;
+  const Real top_jointbx1p_x = (q1r1_x - q1r1_y) * Real(0.03) - (q1r1_z * Real(0.31) + Real(0.34));
+  const Real top_jointbx1p_y = Real(0.03) * (q1r2_x + q1r2_y) + (q1r2_z * Real(0.31) + Real(0.02));
+  const Real top_jointbx1_x = c0 * top_jointbx1p_x - s0 * top_jointbx1p_y;
+  const Real top_jointbx1_y = c0 * top_jointbx1p_y + s0 * top_jointbx1p_x;
   const detail::Angle<Real> expression = detail::Angle<Real>(state.t) * model.rate;
   Real s, c;
   detail::sine_cosine(expression, s, c);
   const Real expression_2 = Real(1.0) - c;
   const Real expression_3 = expression_2 * model.c1;
-  const Real tie_rodbx1p_x = q1r1_y * Real(0.02) + (q1r1_z * Real(0.07) + (Real(0.34) - q1r1_x * Real(0.14)));
-  const Real tie_rodbx1p_y = q1r2_y * Real(0.02) + (q1r2_z * Real(0.07) + (Real(0.02) + q1r2_x * Real(0.14)));
+  const Real tie_rodbx1p_x = Real(0.34) - q1r1_x * Real(0.14) + (q1r1_z * Real(0.07) + q1r1_y * Real(0.02));
+  const Real tie_rodbx1p_y = Real(0.02) + q1r2_x * Real(0.14) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02));
   const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
   const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) - q1r0_y * Real(0.02)) + Real(0.14);
+  const Real tie_rodd_x = q1r0_z * Real(0.07) + Real(0.14) + (q1r0_x * Real(0.14) - q1r0_y * Real(0.02));
   const Real tie_rodd_y = expression_3 - tie_rodbx1_x;
   const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
   const Real t101 = q1r0_z * Real(0.03);
@@ -1845,42 +1822,39 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real tie_rods0bm_x = Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z;
   const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y + (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
   const Real derivative = s * model.c2;
-  const Real tie_rods0at = tie_rods0bf0_x * derivative;
-  const Real t171 = Real(1.0) / top_joints2am_z;
-  const Real t172 = top_jointax_y * t171;
-  const Real t178 = top_joints2bm_y * t172 + (t110 + Real(0.31) * top_joints1bf1_x);
-  const Real t182 = top_joints2bm_z * t172 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
-  const Real t188 = Real(1.0) / (top_joints2bm_x * t172 + (Real(0.31) * top_joints1bf1_y - t110));
-  const Real t189 = (top_joints2bm_x * Real(0.06992681194351041) + (q1r0_y * Real(0.31) + t101)) * t188;
-  const Real t193 = t178 * t189 - (top_joints2bm_y * Real(0.06992681194351041) - (t101 - q1r0_x *
+  const Real t170 = Real(1.0) / top_joints2am_z;
+  const Real t171 = top_jointax_y * t170;
+  const Real t177 = top_joints2bm_y * t171 + (t110 + Real(0.31) * top_joints1bf1_x);
+  const Real t181 = top_joints2bm_z * t171 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
+  const Real t187 = Real(1.0) / (top_joints2bm_x * t171 + (Real(0.31) * top_joints1bf1_y - t110));
+  const Real t188 = (top_joints2bm_x * Real(0.06992681194351041) + (q1r0_y * Real(0.31) + t101)) * t187;
+  const Real t192 = t177 * t188 - (top_joints2bm_y * Real(0.06992681194351041) - (t101 - q1r0_x *
       Real(0.31)));
-  const Real t195 = t193 * Real(0.0967741935483871);
-  const Real t196 = tie_rods0bm_x * t188;
-  const Real t201 = Real(1.0) / t193;
-  const Real t202 = (t178 * t196 - (Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x)) * t201;
-  const Real t207 = Real(1.0) / (t195 * t202 - (t182 * t196 - (Real(0.14) * tie_rods0bf1_y - Real(0.02) *
+  const Real t194 = t192 * Real(0.0967741935483871);
+  const Real t195 = tie_rods0bm_x * t187;
+  const Real t200 = Real(1.0) / t192;
+  const Real t201 = (t177 * t195 - (Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x)) * t200;
+  const Real t206 = Real(1.0) / (t194 * t201 - (t181 * t195 - (Real(0.14) * tie_rods0bf1_y - Real(0.02) *
       tie_rods0bf1_x)));
-  const Real t209 = top_jointbx1_y - top_jointbx1_x * t172;
-  const Real t212 = top_jointbx1_x * Real(0.06992681194351041) + t189 * t209;
-  const Real t218 = t207 * (t202 * t212 - (t196 * t209 + (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y *
+  const Real t208 = top_jointbx1_y + top_jointbx1_x * t171;
+  const Real t211 = top_jointbx1_x * Real(0.06992681194351041) - t188 * t208;
+  const Real t217 = t206 * (t201 * t211 + (t195 * t208 + (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y *
       tie_rods0bf0_x)));
-  const Real t221 = t201 * (t212 - t195 * t218);
-  const Real t226 = t188 * (t182 * t218 - (t209 - t178 * t221));
-  const Real t233 = t171 * (top_joints2bm_z * t218 + (top_joints2bm_y * t221 + (top_jointbx1_x -
-      top_joints2bm_x * t226)));
-  const Real t238 = t233 * state.z[0];
-  const Real t239 = tie_rods0at * t207;
+  const Real t220 = t200 * (t211 - t194 * t217);
+  const Real t225 = t187 * (t177 * t220 + (t208 + t181 * t217));
+  const Real t232 = t170 * (top_joints2bm_x * t225 - (top_joints2bm_y * t220 + (top_jointbx1_x +
+      top_joints2bm_z * t217)));
+  const Real t237 = t232 * state.z[0];
+  const Real t239 = t206 * (tie_rods0bf0_x * derivative);
   const Real t240 = Real(0.0967741935483871) * t239;
-  const Real t241 = t226 * state.z[0] + t240;
-  const Real t242 = t221 * state.z[0] - t240;
-  const Real t243 = t218 * state.z[0] + t239;
-  const Real top_jointam2t_y = top_jointax_x * t238;
-  const Real t246 = Real(0.03) * t243;
-  const Real top_jointbm1t_x = Real(0.31) * t242 + t246;
-  const Real top_jointbm1t_y = t246 - Real(0.31) * t241;
+  const Real t241 = t225 * state.z[0] - t240;
+  const Real t242 = t220 * state.z[0] + t240;
+  const Real t243 = t217 * state.z[0] - t239;
+  const Real t245 = Real(0.03) * t243;
+  const Real top_jointbm1t_x = Real(0.31) * t242 + t245;
+  const Real top_jointbm1t_y = t245 - Real(0.31) * t241;
   const Real top_jointbm1t_z = Real(0.03) * (t241 + t242);
-  const Real top_jointam2t_x = top_jointax_y * t238;
-  const Real top_jointam2a_y = t238 * top_jointam2t_x;
+  const Real top_jointam2a_y = t237 * (top_jointax_y * t237);
   const Real top_jointam2app_x = top_jointam2a_y * Real(0.0697564737441253);
   const Real top_jointbm1a_x = t242 * top_jointbm1t_z + t243 * top_jointbm1t_y;
   const Real top_jointbm1a_y = t241 * top_jointbm1t_z + t243 * top_jointbm1t_x;
@@ -1891,7 +1865,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
       top_jointbm1t_y);
   const Real top_jointbm1vp_x = c0 * top_jointbm1vpp_x + s0 * top_jointbm1vpp_y;
   const Real top_jointbm0t_x = top_jointbx1_y * state.z[0];
-  const Real top_jointam2a_x = t238 * top_jointam2t_y;
+  const Real top_jointam2a_x = t237 * (top_jointax_x * t237);
   const Real top_jointbm1vp_y = c0 * top_jointbm1vpp_y - s0 * top_jointbm1vpp_x;
   const Real top_jointbm1app_x = q1r1_z * top_jointbm1a_z + (q1r1_x * top_jointbm1a_x - q1r1_y *
       top_jointbm1a_y);
@@ -1900,7 +1874,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real top_jointbm0t_y = top_jointbx1_x * state.z[0];
   const Real top_jointbm0b_y = top_jointbm0t_y + Real(2.0) * top_jointbm1vp_y;
   const Real top_jointam2app_z = Real(0.9975640502598242) * top_jointam2a_y;
-  const Real top_jointbm0b_x = top_jointbm0t_x - Real(2.0) * top_jointbm1vp_x;
+  const Real top_jointbm0b_x = top_jointbm0t_x + Real(2.0) * top_jointbm1vp_x;
   const Real top_jointda_z = state.z[0] * top_jointbm0b_x + (s0 * top_jointbm1app_x + (top_jointam2app_z - c0
       * top_jointbm1app_y));
   const Real tie_rodbm1t_x = Real(0.07) * t242 + Real(0.02) * t243;
@@ -1913,8 +1887,8 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real tie_rodbm1vp_y = c0 * tie_rodbm1vpp_y - s0 * tie_rodbm1vpp_x;
   const Real tie_rodbm0t_x = tie_rodbx1_y * state.z[0];
   const Real tie_rodbm0t_y = tie_rodbx1_x * state.z[0];
-  const Real tie_rodbm0v_y = tie_rodbm1vp_y + tie_rodbm0t_y;
-  const Real tie_roddv_y = tie_rodbm0t_x - (derivative + tie_rodbm1vp_x);
+  const Real tie_rodbm0v_y = tie_rodbm1vp_y - tie_rodbm0t_y;
+  const Real tie_roddv_y = tie_rodbm1vp_x - (derivative - tie_rodbm0t_x);
   const Real derivative_2 = c * model.c3;
   const Real tie_rodbm1a_x = t242 * tie_rodbm1t_z + t243 * tie_rodbm1t_y;
   const Real tie_rodbm1a_y = t241 * tie_rodbm1t_z + t243 * tie_rodbm1t_x;
@@ -1922,22 +1896,22 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real tie_rodbm1app_x = q1r1_z * tie_rodbm1a_z + (q1r1_x * tie_rodbm1a_x - q1r1_y * tie_rodbm1a_y);
   const Real tie_rodbm1app_y = q1r2_z * tie_rodbm1a_z - (q1r2_x * tie_rodbm1a_x + q1r2_y * tie_rodbm1a_y);
   const Real tie_rodbm1app_z = q1r0_z * tie_rodbm1a_z - (q1r0_x * tie_rodbm1a_x - q1r0_y * tie_rodbm1a_y);
-  const Real tie_rodbm0b_x = tie_rodbm0t_x - Real(2.0) * tie_rodbm1vp_x;
+  const Real tie_rodbm0b_x = tie_rodbm0t_x + Real(2.0) * tie_rodbm1vp_x;
   const Real tie_rodbm0b_y = tie_rodbm1vp_y + tie_rodbm0v_y;
   const Real tie_rodbm0a_y = state.z[0] * tie_rodbm0b_x - (c0 * tie_rodbm1app_y - s0 * tie_rodbm1app_x);
-  const Real tie_rodda_y = state.z[0] * tie_rodbm0b_y - (s0 * tie_rodbm1app_y - (derivative_2 - c0 *
+  const Real tie_rodda_y = state.z[0] * tie_rodbm0b_y + (s0 * tie_rodbm1app_y - (derivative_2 - c0 *
       tie_rodbm1app_x));
-  const Real t396 = t172 * top_jointda_z + (state.z[0] * top_jointbm0b_y - (s0 * top_jointbm1app_y -
+  const Real t396 = t171 * top_jointda_z - (state.z[0] * top_jointbm0b_y + (s0 * top_jointbm1app_y -
       (top_jointam2a_x - c0 * top_jointbm1app_x)));
-  const Real t403 = t189 * t396 - (Real(0.06992681194351041) * top_jointda_z + (q1r0_z * top_jointbm1a_z +
-      (q1r0_y * top_jointbm1a_y - (top_jointam2app_x + q1r0_x * top_jointbm1a_x))));
-  const Real t414 = t207 * (Real(3.123475237772121) * (tie_rodd_y * tie_rodda_y - (tie_rodd_z * tie_rodbm0a_y
-      - (tie_rodd_x * tie_rodbm1app_z + (tie_roddv_y * tie_roddv_y + (tie_rodbm1vpp_z * tie_rodbm1vpp_z +
-      tie_rodbm0v_y * tie_rodbm0v_y))))) + (t196 * t396 - t202 * t403));
-  const Real t417 = t201 * (t403 + t195 * t414);
-  const Real t422 = t188 * (t182 * t414 + (t396 - t178 * t417));
-  const Real t429 = t171 * (top_joints2bm_z * t414 - (top_joints2bm_y * t417 - (top_jointda_z -
-      top_joints2bm_x * t422)));
+  const Real t403 = t188 * t396 - (Real(0.06992681194351041) * top_jointda_z - (top_jointam2app_x + q1r0_x *
+      top_jointbm1a_x - (q1r0_y * top_jointbm1a_y + q1r0_z * top_jointbm1a_z)));
+  const Real t414 = t206 * (t201 * t403 - (t195 * t396 - Real(3.123475237772121) * (tie_rodd_y * tie_rodda_y +
+      (tie_rodd_z * tie_rodbm0a_y - (tie_rodbm1vpp_z * tie_rodbm1vpp_z + tie_rodd_x * tie_rodbm1app_z +
+      (tie_rodbm0v_y * tie_rodbm0v_y + tie_roddv_y * tie_roddv_y))))));
+  const Real t417 = t200 * (t403 - t194 * t414);
+  const Real t422 = t187 * (t177 * t417 - (t396 - t181 * t414));
+  const Real t429 = t170 * (top_joints2bm_x * t422 - (top_joints2bm_y * t417 - (top_jointda_z -
+      top_joints2bm_z * t414)));
   const Real h1at1_x = q1r1_y * Real(1.6) - q1r1_z * Real(3.84);
   const Real h1at1_y = q1r2_y * Real(1.6) - q1r2_z * Real(3.84);
   const Real S1at1r0_y = q1r1_y * Real(0.33) - q1r1_z * Real(0.192);
@@ -1946,10 +1920,10 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real S1at1r1_z = q1r2_z * Real(1.1108) - q1r2_y * Real(0.192);
   const Real p_1_1f_x = q1r1_z * Real(1.6) + q1r1_y * Real(3.84);
   const Real p_1_1f_y = q1r2_z * Real(1.6) + q1r2_y * Real(3.84);
-  const Real p_1_1n_z = q1r0_x * Real(1.4408) - (Real(0.02) * p_1_1f_x - Real(0.34) * p_1_1f_y);
+  const Real p_1_1n_z = Real(0.34) * p_1_1f_y - (Real(0.02) * p_1_1f_x - q1r0_x * Real(1.4408));
   const Real t482 = q1r1_x * Real(0.0768) + q1r2_x * Real(1.3056);
-  const Real p_2_1n_z = q1r0_y * Real(1.7608) - (q1r0_z * Real(0.192) - t482);
-  const Real p_3_1n_z = q1r0_z * Real(0.98) - (q1r0_y * Real(0.192) + t482 * Real(0.4166666666666667));
+  const Real p_2_1n_z = t482 - (q1r0_z * Real(0.192) - q1r0_y * Real(1.7608));
+  const Real p_3_1n_z = t482 * Real(0.4166666666666667) + (q1r0_y * Real(0.192) - q1r0_z * Real(0.98));
   const Real h2b_x = c2 * Real(0.275) - s2 * Real(0.025);
   const Real h1c_x = h1at1_x - Real(11.73);
   const Real h1c_y = h1at1_y - Real(0.64);
@@ -1959,24 +1933,21 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real w1p_z = q1r0_z * state.z[0];
   const Real strutbx_x = c0 * Real(0.22);
   const Real strutbx_y = s0 * Real(0.22);
-  const Real strutbv0_x = state.z[0] * strutbx_y;
-  const Real strutbv0_y = state.z[0] * strutbx_x;
   const Real strutd_y = strutbx_x - Real(0.10000000000000003);
   const Real strutd_z = strutbx_y - Real(0.41000000000000003);
-  const Real strut_ll = strutd_y * strutd_y + strutd_z * strutd_z + Real(1e-18);
+  const Real strut_ll = strutd_z * strutd_z + (strutd_y * strutd_y + Real(1e-18));
   const Real strut_l = detail::square_root(strut_ll);
-  const Real strut_rate = (strutbv0_x * strutd_y - strutbv0_y * strutd_z) / strut_l;
+  const Real strut_rate = (strutd_y * (state.z[0] * strutbx_y) - strutd_z * (state.z[0] * strutbx_x)) /
+      strut_l;
   const Real strut_e = strut_l - model.free_length;
   const Real strut_T = strut_e * model.stiffness - strut_rate * model.damping;
   const Real strut_Tl = strut_T / strut_l;
-  const Real strutf_y = strutd_y * strut_Tl;
-  const Real strutf_z = strutd_z * strut_Tl;
-  const Real wheel_centerx1p_x = q1r1_y * Real(0.06) - (q1r1_z * Real(0.12) + (Real(0.34) - q1r1_x *
-      Real(0.01)));
-  const Real wheel_centerx1p_y = q1r2_y * Real(0.06) - (q1r2_z * Real(0.12) + (Real(0.02) + q1r2_x *
-      Real(0.01)));
-  const Real expression_4 = c0 * wheel_centerx1p_y - (input.u[0] + s0 * wheel_centerx1p_x) -
-      Real(0.11750000000000002);
+  const Real wheel_centerx1p_x = Real(0.34) - q1r1_x * Real(0.01) + (q1r1_z * Real(0.12) - q1r1_y *
+      Real(0.06));
+  const Real wheel_centerx1p_y = Real(0.02) + q1r2_x * Real(0.01) + (q1r2_z * Real(0.12) - q1r2_y *
+      Real(0.06));
+  const Real expression_4 = s0 * wheel_centerx1p_x - (c0 * wheel_centerx1p_y + (input.u[0] +
+      Real(0.11750000000000002)));
   const Real expression_5 = expression_4 * model.tyre;
   const Real tyre_forcef1_x = top_joints2bf1_x * expression_5;
   const Real tyre_forcef1_y = top_joints2bf1_y * expression_5;
@@ -1996,18 +1967,14 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real rK1_x = Real(0.65) * w1p_x;
   const Real rK1_y = Real(0.33) * w1p_y + Real(0.192) * w1p_z;
   const Real rK1_z = Real(1.1108) * w1p_z + Real(0.192) * w1p_y;
-  const Real t638 = w1p_x * rK1_z;
-  const Real t639 = w1p_z * rK1_x;
-  const Real t641 = w1p_x * rK1_y;
-  const Real t642 = w1p_y * rK1_x;
-  const Real ru1_x = t241 - Real(2.0) * w1p_x;
-  const Real ru1_y = t242 - Real(2.0) * w1p_y;
-  const Real ru1_z = t243 - Real(2.0) * w1p_z;
+  const Real ru1_x = t241 + Real(2.0) * w1p_x;
+  const Real ru1_y = t242 + Real(2.0) * w1p_y;
+  const Real ru1_z = t243 + Real(2.0) * w1p_z;
   const Real rSu1_x = Real(0.65) * ru1_x;
   const Real rSu1_y = Real(0.33) * ru1_y + Real(0.192) * ru1_z;
   const Real rSu1_z = Real(1.1108) * ru1_z + Real(0.192) * ru1_y;
   const Real ruh1 = Real(1.6) * ru1_y + Real(3.84) * ru1_z;
-  const Real ruw1 = t243 * ru1_z + (t241 * ru1_x + t242 * ru1_y);
+  const Real ruw1 = t241 * ru1_x + (t242 * ru1_y + t243 * ru1_z);
   const Real t674 = t242 * rSu1_z;
   const Real t675 = t243 * rSu1_y;
   const Real t678 = t241 * rSu1_z;
@@ -2016,50 +1983,51 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t683 = t242 * rSu1_x;
   const Real rQp2 = h2b_x * Real(9.786103333048876);
   const Real rdn2_z = t429 * Real(0.0505);
-  const Real ref1_x = t241 * ruh1 - (t417 * Real(3.84) + (tyre_forcef1_x + t414 * Real(1.6)));
-  const Real ref1_y = t242 * ruh1 - (t422 * Real(3.84) - (tyre_forcef1_y - Real(1.6) * ruw1));
-  const Real ref1_z = t243 * ruh1 - (Real(3.84) * ruw1 + (tyre_forcef1_z - t422 * Real(1.6)));
-  const Real ren1_x = t675 - (t674 + (tyre_forcem_x - t422 * Real(1.4408)));
-  const Real ren1_y = t679 - (t678 - (t417 * Real(1.7608) - (tyre_forcem_y - t414 * Real(0.192))));
-  const Real ren1_z = t683 - (t682 - (t414 * Real(0.98) + (tyre_forcem_z + t417 * Real(0.192))));
-  const Real rf1p_x = q1r1_z * ref1_z - (q1r1_x * ref1_x + q1r1_y * ref1_y);
-  const Real rf1p_y = q1r2_z * ref1_z + (q1r2_x * ref1_x - q1r2_y * ref1_y);
-  const Real t723 = w1p_y * rK1_z - w1p_z * rK1_y;
-  const Real rQ1_0 = ren1_x + (Real(1.6) * ra1_z + Real(3.84) * ra1_y - t723);
-  const Real rQ1_1 = ren1_y + (t639 + (Real(3.84) * ra1_x - t638));
-  const Real rQ1_2 = ren1_z + (t642 + (Real(1.6) * ra1_x - t641));
+  const Real ref1_x = t417 * Real(3.84) - (t414 * Real(1.6) - (tyre_forcef1_x - t241 * ruh1));
+  const Real ref1_y = t422 * Real(3.84) - (Real(1.6) * ruw1 - (tyre_forcef1_y + t242 * ruh1));
+  const Real ref1_z = t422 * Real(1.6) + (Real(3.84) * ruw1 + (tyre_forcef1_z - t243 * ruh1));
+  const Real ren1_x = t422 * Real(1.4408) - (t675 - (tyre_forcem_x + t674));
+  const Real ren1_y = t417 * Real(1.7608) - (t414 * Real(0.192) - (t679 - (tyre_forcem_y + t678)));
+  const Real ren1_z = t417 * Real(0.192) - (t414 * Real(0.98) - (t683 + (tyre_forcem_z - t682)));
+  const Real rf1p_x = q1r1_z * ref1_z - (q1r1_x * ref1_x - q1r1_y * ref1_y);
+  const Real rf1p_y = q1r2_z * ref1_z + (q1r2_x * ref1_x + q1r2_y * ref1_y);
+  const Real t722 = w1p_y * rK1_z - w1p_z * rK1_y;
+  const Real rQ1_0 = ren1_x - (Real(3.84) * ra1_y + (Real(1.6) * ra1_z - t722));
+  const Real t726 = w1p_x * rK1_z - w1p_z * rK1_x;
+  const Real rQ1_1 = ren1_y + (Real(3.84) * ra1_x - t726);
+  const Real t729 = w1p_x * rK1_y - w1p_y * rK1_x;
+  const Real rQ1_2 = ren1_z + (Real(1.6) * ra1_x - t729);
   const Real rQ2_0 = rQp2 - rdn2_z;
-  const Real t748 = (t233 * rQ2_0 - (t218 * rQ1_2 - (t221 * rQ1_1 - (t226 * rQ1_0 - (Real(0.34) * rf1p_y -
-      (Real(0.02) * rf1p_x - (q1r0_z * ren1_z - (q1r0_y * ren1_y - (q1r0_x * ren1_x + (rQp0 - (strutbx_x *
-      strutf_z - strutbx_y * strutf_y))))))))))) / ((q1r1_x * q1r1_x + q1r2_x * q1r2_x) * Real(0.65) + (q1r1_y
-      * S1at1r0_y + (q1r1_z * S1at1r0_z - (h1at1_x * Real(0.68) - (q1r2_y * S1at1r1_y + (q1r2_z * S1at1r1_z -
-      (h1at1_y * Real(0.04) - (t233 * t233 * Real(0.0505) - (t226 * (p_1_1n_z + (p_1_1n_z - t226 *
-      Real(1.4408))) - (t218 * (t218 * Real(0.98) - (p_3_1n_z + (p_3_1n_z + t221 * Real(0.192)))) - t221 *
-      (t218 * Real(0.192) + (p_2_1n_z + (p_2_1n_z - t221 * Real(1.7608)))))))))))) +
-      Real(3.9165000000000005)));
+  const Real t748 = (Real(0.02) * rf1p_x - (t225 * rQ1_0 + (q1r0_x * ren1_x - (q1r0_z * ren1_z - t220 * rQ1_1
+      + (t217 * rQ1_2 - (q1r0_y * ren1_y - (strut_Tl * (strutbx_y * strutd_y) - (strut_Tl * (strutbx_x *
+      strutd_z) - rQp0))))))) - (Real(0.34) * rf1p_y - t232 * rQ2_0)) / (t232 * (t232 * Real(0.0505)) + (t225
+      * (t225 * Real(1.4408) + (p_1_1n_z + p_1_1n_z)) + (t220 * (t220 * Real(1.7608) - (t217 * Real(0.192) -
+      (p_2_1n_z + p_2_1n_z))) - (t217 * (t220 * Real(0.192) - (t217 * Real(0.98) - (p_3_1n_z + p_3_1n_z))) -
+      ((q1r1_x * q1r1_x + q1r2_x * q1r2_x) * Real(0.65) + Real(3.9165000000000005) + (q1r1_y * S1at1r0_y +
+      q1r1_z * S1at1r0_z) + (q1r2_y * S1at1r1_y + q1r2_z * S1at1r1_z - (h1at1_x * Real(0.68) + h1at1_y *
+      Real(0.04))))))));
   const Real ra1o_x_2 = ra1o_x + Real(0.02) * t748;
   const Real ra1o_y_2 = ra1o_y + Real(0.34) * t748;
   const Real ra1_x_2 = q1r1_x * ra1o_x_2 + q1r2_x * ra1o_y_2;
   const Real ra1_y_2 = q1r1_y * ra1o_x_2 - q1r2_y * ra1o_y_2;
   const Real ra1_z_2 = q1r1_z * ra1o_x_2 - q1r2_z * ra1o_y_2;
-  const Real rdn2_z_2 = Real(0.0505) * (t429 + t233 * t748);
+  const Real rdn2_z_2 = Real(0.0505) * (t429 + t232 * t748);
   const Real rQ2_0_2 = rQp2 - rdn2_z_2;
-  const Real t770 = t171 * rQ2_0_2;
-  const Real t783 = t188 * (Real(1.4408) * (t422 - t748 * (q1r0_x - t226)) + (top_joints2bm_x * t770 - (t674 -
-      (t675 - (tyre_forcem_x - (Real(3.84) * ra1_y_2 - (t723 - Real(1.6) * ra1_z_2)))))));
-  const Real t788 = t414 - t748 * (q1r0_z - t218);
-  const Real t792 = t417 + t748 * (q1r0_y - t221);
-  const Real t803 = t201 * (Real(1.7608) * t792 + (Real(0.192) * t788 - (t178 * t783 - (top_joints2bm_y * t770
-      - (t678 - (t679 - (tyre_forcem_y - (Real(3.84) * ra1_x_2 - (t638 - t639)))))))));
-  const Real t819 = t207 * (Real(0.98) * t788 + (Real(0.192) * t792 + (t195 * t803 + (t182 * t783 -
-      (top_joints2bm_z * t770 + (t682 - (t683 + (tyre_forcem_z + (Real(1.6) * ra1_x_2 - (t641 -
-      t642))))))))));
-  const Real t821 = t803 - t202 * t819;
-  const Real t825 = t196 * t819 + (t783 + t189 * t821);
-  lambda[0] = -t821;
-  lambda[1] = -t825;
-  lambda[2] = -(Real(0.06992681194351041) * t821 + (t770 - t172 * t825));
-  lambda[3] = t819;
+  const Real t770 = t170 * rQ2_0_2;
+  const Real t783 = t187 * (Real(1.6) * ra1_z_2 - (Real(1.4408) * (t422 + t748 * (q1r0_x + t225)) - (t675 -
+      (t674 + (tyre_forcem_x + t722)))) + (Real(3.84) * ra1_y_2 + top_joints2bm_x * t770));
+  const Real t788 = t414 + t748 * (q1r0_z + t217);
+  const Real t792 = t417 + t748 * (q1r0_y + t220);
+  const Real t802 = t200 * (t177 * t783 - (top_joints2bm_y * t770 + (Real(3.84) * ra1_x_2 + (Real(1.7608) *
+      t792 - (Real(0.192) * t788 - (t679 - (t678 + (tyre_forcem_y + t726))))))));
+  const Real t817 = t206 * (t194 * t802 - (t181 * t783 - (top_joints2bm_z * t770 - (Real(1.6) * ra1_x_2 -
+      (Real(0.98) * t788 - (Real(0.192) * t792 + (t683 - (t682 - (tyre_forcem_z - t729)))))))));
+  const Real t819 = t802 - t201 * t817;
+  const Real t823 = t188 * t819 - (t783 - t195 * t817);
+  lambda[0] = t819;
+  lambda[1] = t823;
+  lambda[2] = -(t171 * t823 + (t770 - Real(0.06992681194351041) * t819));
+  lambda[3] = -t817;
 }
 
 // `input` may be a function that gives the Input at the state of a stage.

@@ -333,8 +333,8 @@ void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[3]
   const Real pinbx1_y = r1_y + pinbx_y;
   const Real t30 = Real(1.0) / (pinax_x * pinbx_y + pinbx_x * pinax_y);
   ydot[0] = state.z[0];
-  ydot[1] = -(t30 * (pinax_x * pinbx1_y - pinbx1_x * pinax_y) * state.z[0]);
-  ydot[2] = t4 * t30 * state.z[0] * Real(0.043199999999999995);
+  ydot[1] = -(t30 * ((pinax_x * pinbx1_y - pinbx1_x * pinax_y) * state.z[0]));
+  ydot[2] = t30 * (t4 * (state.z[0] * Real(0.043199999999999995)));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -355,11 +355,11 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[1][1]) 
   const Real pinbx1_y = r1_y + pinbx_y;
   const Real t30 = Real(1.0) / (pinax_x * pinbx_y + pinbx_x * pinax_y);
   const Real t34 = t30 * (pinax_x * pinbx1_y - pinbx1_x * pinax_y);
-  const Real t37 = t4 * t30 * Real(0.043199999999999995);
+  const Real t37 = t30 * (t4 * Real(0.043199999999999995));
   const Real D1 = t5 * Real(0.015551999999999998);
   const Real v1L_z = t34 * Real(0.031103999999999996);
-  const Real T2 = (t34 * v1L_z + (D1 + (D1 + t37 * t37 * Real(0.009215999999999998))) +
-      Real(0.042623999999999995)) * Real(0.5) - (v1L_z + t34 * D1);
+  const Real T2 = (t37 * (t37 * Real(0.009215999999999998)) + (t34 * v1L_z + (D1 + (D1 +
+      Real(0.042623999999999995))))) * Real(0.5) - (v1L_z + t34 * D1);
   M[0][0] = T2 * Real(2.0);
 }
 
@@ -381,7 +381,7 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[1]) noexcept 
   const Real pinbx1_y = r1_y + pinbx_y;
   const Real t30 = Real(1.0) / (pinax_x * pinbx_y + pinbx_x * pinax_y);
   const Real t34 = t30 * (pinax_x * pinbx1_y - pinbx1_x * pinax_y);
-  const Real t37 = t4 * t30 * Real(0.043199999999999995);
+  const Real t37 = t30 * (t4 * Real(0.043199999999999995));
   const Real t39 = t34 * state.z[0];
   const Real t40 = t37 * state.z[0];
   const Real pinam2t_x = pinax_y * t40;
@@ -391,28 +391,20 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[1]) noexcept 
   const Real pinbm1t_y = pinbx_x * t39;
   const Real pinbm1a_x = t39 * pinbm1t_y;
   const Real pinbm0b_y = pinam2t_y + pinbm1t_y;
-  const Real pinbm0a_x = pinbm1a_x - state.z[0] * pinbm0b_y;
-  const Real pinda_x = pinam2a_x + pinbm0a_x;
+  const Real pinda_x = state.z[0] * pinbm0b_y - (pinam2a_x + pinbm1a_x);
   const Real pinam2a_y = t40 * pinam2t_x;
   const Real pinbm1a_y = t39 * pinbm1t_x;
   const Real pinbm0b_x = pinam2t_x - pinbm1t_x;
-  const Real pinbm0a_y = pinbm1a_y + state.z[0] * pinbm0b_x;
-  const Real pinda_y = pinam2a_y - pinbm0a_y;
+  const Real pinda_y = state.z[0] * pinbm0b_x - (pinam2a_y - pinbm1a_y);
   const Real t60 = t30 * (pinax_x * pinda_x + pinax_y * pinda_y);
   const Real h1b_x = c1 * Real(0.1296);
   const Real h1b_y = s1 * Real(0.1296);
-  const Real w1_z = state.z[0] - t39;
   const Real kW0w22 = state.z[0] * state.z[0];
-  const Real ka1o_x = r1_x * kW0w22;
-  const Real ka1o_y = r1_y * kW0w22;
-  const Real kQp1 = h1b_x * ka1o_y + h1b_y * ka1o_x;
-  const Real zw_1 = t39 * (state.z[0] + w1_z);
-  const Real kdf1_x = h1b_x * zw_1;
-  const Real kdf1_y = h1b_y * zw_1;
-  const Real kn1c_z = r1_x * kdf1_y + r1_y * kdf1_x;
+  const Real zw_1 = t39 * (t39 - (state.z[0] + state.z[0]));
   const Real E1 = t5 * Real(0.015551999999999998) + Real(0.031103999999999996);
-  k[0] = -(kn1c_z + t60 * E1 - t34 * (kQp1 + t60 * Real(0.031103999999999996)) - t37 * (t30 * (pinbx_x *
-      pinda_x - pinbx_y * pinda_y)) * Real(0.009215999999999998));
+  k[0] = -(t34 * (t60 * Real(0.031103999999999996) - (h1b_x * (r1_y * kW0w22) + h1b_y * (r1_x * kW0w22))) -
+      (t60 * E1 - ((pinbx_x * pinda_x - pinbx_y * pinda_y) * (t37 * (t30 * Real(0.009215999999999998))) -
+      (zw_1 * (r1_x * h1b_y) + zw_1 * (r1_y * h1b_x)))));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -433,14 +425,13 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real pinbx_y = s1 * Real(0.36);
   const Real pinbx1_y = r1_y + pinbx_y;
   const Real t30 = Real(1.0) / (pinax_x * pinbx_y + pinbx_x * pinax_y);
-  const Real t37 = t4 * t30 * Real(0.043199999999999995);
+  const Real t36 = t30 * (t4 * Real(0.043199999999999995));
   const Real h1b_x = c1 * Real(0.1296);
   const Real h0b_x = c0 * Real(0.10079999999999999);
-  const Real h0_x = h1b_x - h0b_x;
-  const Real push2_0 = t37 * state.z[0] * model.bearing;
+  const Real push2_0 = t36 * (state.z[0] * model.bearing);
   const Real q_2 = push2_0 + c2 * Real(0.565056);
-  q[0] = -((h0_x - t30 * (pinax_x * pinbx1_y - pinbx1_x * pinax_y) * h1b_x) * Real(9.81) + (input.u[0] - t37 *
-      q_2));
+  q[0] = t36 * q_2 - (input.u[0] - (t30 * ((pinax_x * pinbx1_y - pinbx1_x * pinax_y) * h1b_x) - (h1b_x -
+      h0b_x)) * Real(9.81));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -462,7 +453,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real pinbx1_y = r1_y + pinbx_y;
   const Real t30 = Real(1.0) / (pinax_x * pinbx_y + pinbx_x * pinax_y);
   const Real t34 = t30 * (pinax_x * pinbx1_y - pinbx1_x * pinax_y);
-  const Real t37 = t4 * t30 * Real(0.043199999999999995);
+  const Real t37 = t30 * (t4 * Real(0.043199999999999995));
   const Real t39 = t34 * state.z[0];
   const Real t40 = t37 * state.z[0];
   const Real pinam2t_x = pinax_y * t40;
@@ -472,35 +463,34 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real pinbm1t_y = pinbx_x * t39;
   const Real pinbm1a_x = t39 * pinbm1t_y;
   const Real pinbm0b_y = pinam2t_y + pinbm1t_y;
-  const Real pinda_x = pinbm1a_x + (pinam2a_x - state.z[0] * pinbm0b_y);
+  const Real pinda_x = state.z[0] * pinbm0b_y - (pinam2a_x + pinbm1a_x);
   const Real pinam2a_y = t40 * pinam2t_x;
   const Real pinbm1a_y = t39 * pinbm1t_x;
   const Real pinbm0b_x = pinam2t_x - pinbm1t_x;
-  const Real pinda_y = pinbm1a_y - (pinam2a_y - state.z[0] * pinbm0b_x);
-  const Real t60 = t30 * (pinax_x * pinda_x - pinax_y * pinda_y);
+  const Real pinda_y = state.z[0] * pinbm0b_x - (pinam2a_y - pinbm1a_y);
+  const Real t60 = t30 * (pinax_x * pinda_x + pinax_y * pinda_y);
   const Real h1b_x = c1 * Real(0.1296);
   const Real h1b_y = s1 * Real(0.1296);
   const Real D1 = t5 * Real(0.015551999999999998);
   const Real v1L_z = t34 * Real(0.031103999999999996);
-  const Real T2 = t34 * D1 + (v1L_z - (t37 * t37 * Real(0.009215999999999998) + (D1 + (D1 + t34 * v1L_z)) +
-      Real(0.042623999999999995)) * Real(0.5));
+  const Real T2 = (t37 * (t37 * Real(0.009215999999999998)) + (t34 * v1L_z + (D1 + (D1 +
+      Real(0.042623999999999995))))) * Real(0.5) - (v1L_z + t34 * D1);
   const Real h0b_x = c0 * Real(0.10079999999999999);
   const Real h0_x = h1b_x - h0b_x;
   const Real push2_0 = t40 * model.bearing;
   const Real rQp0 = h0_x * Real(9.81);
   const Real rW0w22 = state.z[0] * state.z[0];
-  const Real ra1o_x = r1_x * rW0w22;
   const Real ra1o_y = Real(9.81) - r1_y * rW0w22;
-  const Real zw_1 = t39 * (state.z[0] + (state.z[0] - t39));
+  const Real zw_1 = t39 * (t39 - (state.z[0] + state.z[0]));
   const Real rdf1_x = t60 * h1b_y + h1b_x * zw_1;
   const Real rdf1_y = t60 * h1b_x - h1b_y * zw_1;
   const Real rdn1_z = t60 * Real(0.031103999999999996);
   const Real rQp2 = c2 * Real(0.565056);
-  const Real rdn2_z = t30 * (pinbx_x * pinda_x + pinbx_y * pinda_y) * Real(0.009215999999999998);
-  const Real rQ1_0 = h1b_y * ra1o_x - (h1b_x * ra1o_y - rdn1_z);
-  const Real tau_2_0 = rQp2 + (push2_0 - rdn2_z);
-  zdot[0] = (rdn1_z - (rQp0 + (r1_x * rdf1_y - (r1_y * rdf1_x - (input.u[0] + (t34 * rQ1_0 - t37 *
-      tau_2_0)))))) / (T2 * Real(2.0));
+  const Real rdn2_z = (pinbx_x * pinda_x - pinbx_y * pinda_y) * (t30 * Real(0.009215999999999998));
+  const Real rQ1_0 = rdn1_z + (h1b_x * ra1o_y - h1b_y * (r1_x * rW0w22));
+  const Real tau_2_0 = rdn2_z + (push2_0 + rQp2);
+  zdot[0] = -((r1_x * rdf1_y - r1_y * rdf1_x + (t34 * rQ1_0 + (t37 * tau_2_0 - (rdn1_z + (rQp0 +
+      input.u[0]))))) / (T2 * Real(2.0)));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -522,7 +512,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real pinbx1_y = r1_y + pinbx_y;
   const Real t30 = Real(1.0) / (pinax_x * pinbx_y + pinbx_x * pinax_y);
   const Real t34 = t30 * (pinax_x * pinbx1_y - pinbx1_x * pinax_y);
-  const Real t37 = t4 * t30 * Real(0.043199999999999995);
+  const Real t37 = t30 * (t4 * Real(0.043199999999999995));
   const Real t39 = t34 * state.z[0];
   const Real t40 = t37 * state.z[0];
   const Real pinam2t_x = pinax_y * t40;
@@ -532,40 +522,33 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real pinbm1t_y = pinbx_x * t39;
   const Real pinbm1a_x = t39 * pinbm1t_y;
   const Real pinbm0b_y = pinam2t_y + pinbm1t_y;
-  const Real pinbm0a_x = pinbm1a_x - state.z[0] * pinbm0b_y;
-  const Real pinda_x = pinam2a_x + pinbm0a_x;
+  const Real pinda_x = state.z[0] * pinbm0b_y - (pinam2a_x + pinbm1a_x);
   const Real pinam2a_y = t40 * pinam2t_x;
   const Real pinbm1a_y = t39 * pinbm1t_x;
   const Real pinbm0b_x = pinam2t_x - pinbm1t_x;
-  const Real pinbm0a_y = pinbm1a_y + state.z[0] * pinbm0b_x;
-  const Real pinda_y = pinam2a_y - pinbm0a_y;
-  const Real t67 = t30 * (pinax_x * pinda_x + pinax_y * pinda_y) - t34 * zdot[0];
+  const Real pinda_y = state.z[0] * pinbm0b_x - (pinam2a_y - pinbm1a_y);
+  const Real t67 = t30 * (pinax_x * pinda_x + pinax_y * pinda_y) + t34 * zdot[0];
   const Real h1b_x = c1 * Real(0.1296);
   const Real h1b_y = s1 * Real(0.1296);
   const Real h0b_x = c0 * Real(0.10079999999999999);
   const Real h0_x = h1b_x - h0b_x;
   const Real J0 = t5 * Real(0.031103999999999996) + Real(0.042623999999999995);
-  const Real w1_z = state.z[0] - t39;
   const Real push2_0 = t40 * model.bearing;
   const Real aQp0 = h0_x * Real(9.81);
   const Real adn0_z = zdot[0] * J0;
   const Real aW0w22 = state.z[0] * state.z[0];
   const Real aa1o_x = r1_y * zdot[0] + r1_x * aW0w22;
-  const Real aa1o_y = Real(9.81) + r1_x * zdot[0] - r1_y * aW0w22;
-  const Real aQp1 = zdot[0] * Real(0.031103999999999996) - h1b_x * aa1o_y + h1b_y * aa1o_x;
-  const Real zw_1 = t39 * (state.z[0] + w1_z);
+  const Real aa1o_y = r1_y * aW0w22 - (Real(9.81) + r1_x * zdot[0]);
+  const Real zw_1 = t39 * (t39 - (state.z[0] + state.z[0]));
   const Real adf1_x = t67 * h1b_y + h1b_x * zw_1;
   const Real adf1_y = t67 * h1b_x - h1b_y * zw_1;
   const Real adn1_z = t67 * Real(0.031103999999999996);
   const Real aQp2 = c2 * Real(0.565056);
-  const Real adn2_z = (t30 * (pinbx_x * pinda_x - pinbx_y * pinda_y) - t37 * zdot[0]) *
+  const Real adn2_z = (t30 * (pinbx_x * pinda_x - pinbx_y * pinda_y) + t37 * zdot[0]) *
       Real(0.009215999999999998);
-  const Real an1c_z = adn1_z + (adn0_z - (r1_x * adf1_y - r1_y * adf1_x));
-  const Real aQ0_0 = aQp0 - an1c_z;
-  const Real aQ1_0 = aQp1 + adn1_z;
-  const Real aQ2_0 = aQp2 - adn2_z;
-  const Real tau_2_0 = push2_0 + aQ2_0;
-  tau[0] = -(aQ0_0 + t34 * aQ1_0 - t37 * tau_2_0);
+  const Real aQ1_0 = adn1_z - (h1b_x * aa1o_y + (zdot[0] * Real(0.031103999999999996) + h1b_y * aa1o_x));
+  const Real tau_2_0 = adn2_z + (push2_0 + aQp2);
+  tau[0] = -(r1_y * adf1_x - t34 * aQ1_0 - (t37 * tau_2_0 + (r1_x * adf1_y - (adn1_z + (aQp0 - adn0_z)))));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -585,16 +568,14 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real pinbx_y = s1 * Real(0.36);
   const Real pinbx1_y = r1_y + pinbx_y;
   const Real t30 = Real(1.0) / (pinax_x * pinbx_y + pinbx_x * pinax_y);
-  const Real t37 = t30 * (pinax_x * pinbx1_y - pinbx1_x * pinax_y) * state.z[0];
-  const Real t40 = t4 * t30 * state.z[0] * Real(0.043199999999999995);
+  const Real t36 = t30 * ((pinax_x * pinbx1_y - pinbx1_x * pinax_y) * state.z[0]);
+  const Real t40 = t30 * (t4 * (state.z[0] * Real(0.043199999999999995)));
   const Real J0 = t5 * Real(0.031103999999999996) + Real(0.042623999999999995);
-  const Real v0L_z = state.z[0] * J0;
-  const Real v1o_x = r1_y * state.z[0];
-  const Real v1o_y = r1_x * state.z[0];
-  const Real v1L_z = t37 * Real(0.031103999999999996);
-  const Real T2 = (v1o_x * (s1 * t37) - v1o_y * (c1 * t37)) * Real(0.1296) + (state.z[0] * v1L_z - (t40 * t40
-      * Real(0.009215999999999998) + (state.z[0] * v0L_z + t37 * v1L_z)) * Real(0.5));
-  return -T2;
+  const Real v1L_z = t36 * Real(0.031103999999999996);
+  const Real T2 = (t40 * (t40 * Real(0.009215999999999998)) + (J0 * (state.z[0] * state.z[0]) + t36 * v1L_z))
+      * Real(0.5) - (state.z[0] * v1L_z + (t36 * (s1 * (r1_y * state.z[0])) - t36 * (c1 * (r1_x *
+      state.z[0]))) * Real(0.1296));
+  return T2;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -606,8 +587,7 @@ Real potential_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real h2b_y = s2 * Real(0.0576);
   const Real h1b_y = s1 * Real(0.1296);
   const Real h0b_y = s0 * Real(0.10079999999999999);
-  const Real h0_y = h1b_y + h0b_y;
-  const Real hg2_y = h2b_y + h0_y;
+  const Real hg2_y = h1b_y + (h2b_y + h0b_y);
   const Real V = hg2_y * Real(9.81);
   return V;
 }
@@ -621,19 +601,17 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
   const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.12);
   const Real r1_y = s0 * Real(0.12);
-  const Real tracerx_x = s1 * Real(0.15) + c1 * Real(0.18);
-  const Real tracerx_y = c1 * Real(0.15) - s1 * Real(0.18);
-  const Real tracerx1_x = r1_x - tracerx_x;
-  const Real tracerx1_y = r1_y - tracerx_y;
-  const Real t27 = -c1;
-  result.coupler_curve.position[0] = tracerx1_x;
+  const Real tracerx1_x = c1 * Real(0.18) - (r1_x - s1 * Real(0.15));
+  const Real tracerx1_y = s1 * Real(0.18) + (r1_y - c1 * Real(0.15));
+  const Real t29 = -c1;
+  result.coupler_curve.position[0] = -tracerx1_x;
   result.coupler_curve.position[1] = tracerx1_y;
   result.coupler_curve.position[2] = Real(0.0);
-  result.coupler_curve.rotation[0][0] = t27;
+  result.coupler_curve.rotation[0][0] = t29;
   result.coupler_curve.rotation[0][1] = -s1;
   result.coupler_curve.rotation[0][2] = Real(0.0);
   result.coupler_curve.rotation[1][0] = s1;
-  result.coupler_curve.rotation[1][1] = t27;
+  result.coupler_curve.rotation[1][1] = t29;
   result.coupler_curve.rotation[1][2] = Real(0.0);
   result.coupler_curve.rotation[2][0] = Real(0.0);
   result.coupler_curve.rotation[2][1] = Real(0.0);
@@ -648,26 +626,26 @@ void close_loops(const Model<Real>&, State<Real>& state) noexcept {
   detail::sine_cosine(state.y[0], t1, t2);
   const Real t4 = t2 * Real(0.6666666666666666);
   const Real t5 = t1 * Real(0.6666666666666666);
-  const Real t14 = t2 * Real(0.2222222222222222) - Real(0.7407407407407408);
-  const Real t15 = t1 * Real(0.2222222222222222);
-  const Real t19 = t2 * Real(0.3703703703703704) - Real(0.3950617283950618);
-  const Real t23 = t2 * Real(0.32921810699588483) - Real(0.5980795610425241);
-  const Real t24 = t19 * t19;
-  const Real t27 = detail::square_root(-(t23 + t24));
-  const Real t37 = (t14 * t19 - t15 * t27) / t23;
-  const Real t38 = (t15 * t19 + t14 * t27) / t23;
-  const Real t45 = t2 * Real(1.1111111111111112) - Real(0.3333333333333333) + (t4 * t37 + t5 * t38);
-  const Real t46 = t1 * Real(1.1111111111111112) + (t5 * t37 - t4 * t38);
+  const Real t13 = t2 * Real(0.2222222222222222) - Real(0.7407407407407408);
+  const Real t14 = t1 * Real(0.2222222222222222);
+  const Real t18 = t2 * Real(0.3703703703703704) - Real(0.3950617283950618);
+  const Real t22 = t2 * Real(0.32921810699588483) - Real(0.5980795610425241);
+  const Real t23 = t18 * t18;
+  const Real t26 = detail::square_root(-(t22 + t23));
+  const Real t36 = (t13 * t18 - t14 * t26) / t22;
+  const Real t37 = (t14 * t18 + t13 * t26) / t22;
+  const Real t44 = t5 * t37 + (t4 * t36 + (t2 * Real(1.1111111111111112) - Real(0.3333333333333333)));
+  const Real t46 = t4 * t37 - (t1 * Real(1.1111111111111112) + t5 * t36);
   Real t49, t48;
   detail::sine_cosine(state.y[1], t49, t48);
-  const Real t57 = detail::arctangent2(-(t46 * t48 + t45 * t49), t45 * t48 - t46 * t49);
-  Real t61, t60;
-  detail::sine_cosine(state.y[2], t61, t60);
-  const Real t68 = detail::arctangent2(t38 * t60 - t37 * t61, t37 * t60 + t38 * t61);
-  closed.y[1] = state.y[1] + t57;
-  closed.y[2] = state.y[2] + t68;
-  closed.regularity = t24 / t23 + Real(1.0);
-  closed.opening = t57 * t57 + t68 * t68;
+  const Real t56 = detail::arctangent2(t46 * t48 - t44 * t49, t44 * t48 + t46 * t49);
+  Real t60, t59;
+  detail::sine_cosine(state.y[2], t60, t59);
+  const Real t67 = detail::arctangent2(t37 * t59 - t36 * t60, t36 * t59 + t37 * t60);
+  closed.y[1] = state.y[1] + t56;
+  closed.y[2] = state.y[2] + t67;
+  closed.regularity = t23 / t22 + Real(1.0);
+  closed.opening = t56 * t56 + t67 * t67;
   state = closed;
 }
 
@@ -682,17 +660,14 @@ void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
   const Real pinax_x = c2 * Real(0.24);
-  const Real pinax2_x = pinax_x + Real(0.4);
   const Real pinbx_x = c1 * Real(0.36);
-  const Real pinbx1_x = r1_x - pinbx_x;
-  const Real pind_x = pinax2_x - pinbx1_x;
+  const Real pind_x = pinbx_x + (pinax_x - (r1_x - Real(0.4)));
   const Real r1_y = s0 * Real(0.12);
   const Real pinax_y = Real(0.24) * s2;
   const Real pinbx_y = s1 * Real(0.36);
-  const Real pinbx1_y = r1_y + pinbx_y;
-  const Real pind_y = pinax_y - pinbx1_y;
+  const Real pind_y = pinbx_y + (r1_y - pinax_y);
   g[0] = -pind_x;
-  g[1] = -pind_y;
+  g[1] = pind_y;
   g_rate[0] = Real(0.0);
   g_rate[1] = Real(0.0);
 }
@@ -716,7 +691,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real pinbx1_y = r1_y + pinbx_y;
   const Real t30 = Real(1.0) / (pinax_x * pinbx_y + pinbx_x * pinax_y);
   const Real t34 = t30 * (pinax_x * pinbx1_y - pinbx1_x * pinax_y);
-  const Real t37 = t4 * t30 * Real(0.043199999999999995);
+  const Real t37 = t30 * (t4 * Real(0.043199999999999995));
   const Real t39 = t34 * state.z[0];
   const Real t40 = t37 * state.z[0];
   const Real pinam2t_x = pinax_y * t40;
@@ -726,19 +701,19 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real pinbm1t_y = pinbx_x * t39;
   const Real pinbm1a_x = t39 * pinbm1t_y;
   const Real pinbm0b_y = pinam2t_y + pinbm1t_y;
-  const Real pinda_x = pinbm1a_x + (pinam2a_x - state.z[0] * pinbm0b_y);
+  const Real pinda_x = state.z[0] * pinbm0b_y - (pinam2a_x + pinbm1a_x);
   const Real pinam2a_y = t40 * pinam2t_x;
   const Real pinbm1a_y = t39 * pinbm1t_x;
   const Real pinbm0b_x = pinam2t_x - pinbm1t_x;
-  const Real pinda_y = pinbm1a_y - (pinam2a_y - state.z[0] * pinbm0b_x);
-  const Real t60 = t30 * (pinax_x * pinda_x - pinax_y * pinda_y);
-  const Real t64 = t30 * (pinbx_x * pinda_x + pinbx_y * pinda_y);
+  const Real pinda_y = state.z[0] * pinbm0b_x - (pinam2a_y - pinbm1a_y);
+  const Real t60 = t30 * (pinax_x * pinda_x + pinax_y * pinda_y);
+  const Real t64 = t30 * (pinbx_x * pinda_x - pinbx_y * pinda_y);
   const Real h1b_x = c1 * Real(0.1296);
   const Real h1b_y = s1 * Real(0.1296);
   const Real D1 = t5 * Real(0.015551999999999998);
   const Real v1L_z = t34 * Real(0.031103999999999996);
-  const Real T2 = t34 * D1 + (v1L_z - (t37 * t37 * Real(0.009215999999999998) + (D1 + (D1 + t34 * v1L_z)) +
-      Real(0.042623999999999995)) * Real(0.5));
+  const Real T2 = (t37 * (t37 * Real(0.009215999999999998)) + (t34 * v1L_z + (D1 + (D1 +
+      Real(0.042623999999999995))))) * Real(0.5) - (v1L_z + t34 * D1);
   const Real h0b_x = c0 * Real(0.10079999999999999);
   const Real h0_x = h1b_x - h0b_x;
   const Real push2_0 = t40 * model.bearing;
@@ -746,25 +721,25 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real rW0w22 = state.z[0] * state.z[0];
   const Real ra1o_x = r1_x * rW0w22;
   const Real ra1o_y = Real(9.81) - r1_y * rW0w22;
-  const Real zw_1 = t39 * (state.z[0] + (state.z[0] - t39));
+  const Real zw_1 = t39 * (t39 - (state.z[0] + state.z[0]));
   const Real rdf1_x = t60 * h1b_y + h1b_x * zw_1;
   const Real rdf1_y = t60 * h1b_x - h1b_y * zw_1;
   const Real rdn1_z = t60 * Real(0.031103999999999996);
   const Real rQp2 = c2 * Real(0.565056);
   const Real rdn2_z = t64 * Real(0.009215999999999998);
-  const Real rQ1_0 = h1b_y * ra1o_x - (h1b_x * ra1o_y - rdn1_z);
+  const Real rQ1_0 = rdn1_z + (h1b_x * ra1o_y - h1b_y * ra1o_x);
   const Real t119 = push2_0 + rQp2;
-  const Real tau_2_0 = rdn2_z - t119;
-  const Real t129 = (rdn1_z - (rQp0 + (r1_x * rdf1_y - (r1_y * rdf1_x - (input.u[0] + (t34 * rQ1_0 + t37 *
-      tau_2_0)))))) / (T2 * Real(2.0));
+  const Real tau_2_0 = rdn2_z + t119;
+  const Real t129 = (r1_y * rdf1_x - t34 * rQ1_0 - (t37 * tau_2_0 + (r1_x * rdf1_y - (rdn1_z + (rQp0 +
+      input.u[0]))))) / (T2 * Real(2.0));
   const Real ra1o_x_2 = ra1o_x + r1_y * t129;
   const Real ra1o_y_2 = ra1o_y + r1_x * t129;
-  const Real rdn2_z_2 = Real(0.009215999999999998) * (t64 - t37 * t129);
-  const Real rQ1_0_2 = h1b_y * ra1o_x_2 - (h1b_x * ra1o_y_2 + Real(0.031103999999999996) * (t34 * t129 - (t60
-      + t129)));
-  const Real tau_2_0_2 = t119 - rdn2_z_2;
-  lambda[0] = t30 * (pinax_x * rQ1_0_2 - pinbx_x * tau_2_0_2);
-  lambda[1] = t30 * (pinax_y * rQ1_0_2 + pinbx_y * tau_2_0_2);
+  const Real rdn2_z_2 = Real(0.009215999999999998) * (t64 + t37 * t129);
+  const Real rQ1_0_2 = Real(0.031103999999999996) * (t34 * t129 + (t60 - t129)) + (h1b_x * ra1o_y_2 - h1b_y *
+      ra1o_x_2);
+  const Real tau_2_0_2 = t119 + rdn2_z_2;
+  lambda[0] = -(t30 * (pinax_x * rQ1_0_2 + pinbx_x * tau_2_0_2));
+  lambda[1] = -(t30 * (pinax_y * rQ1_0_2 - pinbx_y * tau_2_0_2));
 }
 
 // `input` may be a function that gives the Input at the state of a stage.

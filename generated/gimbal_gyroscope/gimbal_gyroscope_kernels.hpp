@@ -273,7 +273,7 @@ State<Real> initial_state(const Model<Real>&) noexcept {
 template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[2][2]) noexcept {
   const Real s1 = detail::sine(state.y[1]);
-  const Real S0b_zz = s1 * s1 * model.S1b_d - model.c1;
+  const Real S0b_zz = s1 * (s1 * model.S1b_d) - model.c1;
   M[0][0] = -S0b_zz;
   M[0][1] = M[1][0] = Real(0.0);
   M[1][1] = model.S1b_zz;
@@ -284,11 +284,11 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[2]) noe
   Real s1, c1;
   detail::sine_cosine(state.y[1], s1, c1);
   const Real w2pp_y = c1 * state.z[0];
-  const Real kKx1 = s1 * w2pp_y * model.S1b_d;
+  const Real kKx1 = w2pp_y * (s1 * model.S1b_d);
   const Real kQp1 = state.z[0] * kKx1;
-  const Real kdn1_y = kKx1 * state.z[1] * Real(2.0);
+  const Real kdn1_y = kKx1 * (state.z[1] * Real(2.0));
   const Real kdn2_y = w2pp_y * model.c3;
-  const Real kn1b_y = model.c3 * (c1 * state.z[1]);
+  const Real kn1b_y = c1 * (state.z[1] * model.c3);
   const Real kn1_y = kdn1_y - kn1b_y;
   const Real kQ1_0 = kQp1 - kdn2_y;
   k[0] = kn1_y;
@@ -315,18 +315,15 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real push0_0 = state.z[0] * Real(0.001);
   const Real push1_0 = Real(0.001) * state.z[1];
   const Real bKx1 = S1b_t * w2pp_y;
-  const Real bQp1 = c1 * model.c4 + state.z[0] * bKx1;
-  const Real bdn1_y = state.z[1] * bKx1 * Real(2.0);
+  const Real bdn1_y = bKx1 * (state.z[1] * Real(2.0));
   const Real bdn2_y = w2pp_y * model.c3;
-  const Real bn1b_y = model.c3 * (c1 * state.z[1]);
-  const Real bn1_y = bdn1_y - bn1b_y;
-  const Real bQ1_0 = bQp1 - bdn2_y;
-  const Real b_0 = push0_0 - bn1_y;
-  const Real b_1 = push1_0 + bQ1_0;
+  const Real bn1b_y = c1 * (state.z[1] * model.c3);
+  const Real b_0 = bdn1_y - (push0_0 + bn1b_y);
+  const Real b_1 = state.z[0] * bKx1 - (bdn2_y - (push1_0 + c1 * model.c4));
   const Real S0b_zz = s1 * S1b_t - model.c1;
   const Real y_0 = b_0 / S0b_zz;
   const Real y_1 = b_1 * model.invD_1;
-  zdot[0] = y_0;
+  zdot[0] = -y_0;
   zdot[1] = -y_1;
 }
 
@@ -342,29 +339,22 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real push1_0 = Real(0.001) * state.z[1];
   const Real adn0_z = S0b_zz * zdot[0];
   const Real aKx1 = S1b_t * w2pp_y;
-  const Real aQp1 = c1 * model.c4 + state.z[0] * aKx1;
-  const Real adn1_y = state.z[1] * aKx1 * Real(2.0);
+  const Real adn1_y = aKx1 * (state.z[1] * Real(2.0));
   const Real adn1_z = zdot[1] * model.S1b_zz;
   const Real adn2_y = w2pp_y * model.c3;
-  const Real an1b_y = model.c3 * (c1 * state.z[1]);
-  const Real an1_y = adn1_y - an1b_y;
-  const Real an1_z = adn1_z - adn2_y;
-  const Real an0_z = adn0_z + an1_y;
-  const Real aQ1_0 = aQp1 + an1_z;
-  const Real tau_0_0 = push0_0 - an0_z;
-  const Real tau_1_0 = push1_0 + aQ1_0;
-  tau[0] = tau_0_0;
+  const Real an1b_y = c1 * (state.z[1] * model.c3);
+  const Real tau_0_0 = adn0_z + (adn1_y - (push0_0 + an1b_y));
+  const Real tau_1_0 = state.z[0] * aKx1 - (adn2_y - (c1 * model.c4 + (push1_0 + adn1_z)));
+  tau[0] = -tau_0_0;
   tau[1] = tau_1_0;
 }
 
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept {
   const Real s1 = detail::sine(state.y[1]);
-  const Real S0b_zz = s1 * s1 * model.S1b_d_2 + model.c7;
-  const Real w2pp_x = s1 * state.z[0];
-  const Real v0L_z = S0b_zz * state.z[0];
-  const Real T2 = w2pp_x * model.v2L_z + (state.z[0] * v0L_z + state.z[1] * state.z[1] * model.S1b_zz_2 +
-      model.c10) * Real(0.5);
+  const Real S0b_zz = s1 * (s1 * model.S1b_d_2) + model.c7;
+  const Real T2 = s1 * (state.z[0] * model.v2L_z) + (S0b_zz * (state.z[0] * state.z[0]) + (model.S1b_zz_2 *
+      (state.z[1] * state.z[1]) + model.c10)) * Real(0.5);
   return T2;
 }
 
@@ -390,45 +380,38 @@ void outputs(const Model<Real>& model, const State<Real>& state, const Input<Rea
   const Real push0_0 = state.z[0] * Real(0.001);
   const Real push1_0 = Real(0.001) * state.z[1];
   const Real bKx1 = S1b_t * w2pp_y;
-  const Real bQp1 = c1 * model.c4 + state.z[0] * bKx1;
-  const Real bdn1_y = state.z[1] * bKx1 * Real(2.0);
+  const Real bdn1_y = bKx1 * (state.z[1] * Real(2.0));
   const Real bdn2_y = w2pp_y * model.c3;
-  const Real bn1b_y = model.c3 * (c1 * state.z[1]);
-  const Real bn1_y = bdn1_y - bn1b_y;
-  const Real bQ1_0 = bQp1 - bdn2_y;
-  const Real b_0 = push0_0 - bn1_y;
-  const Real b_1 = push1_0 + bQ1_0;
+  const Real bn1b_y = c1 * (state.z[1] * model.c3);
+  const Real b_0 = bdn1_y - (push0_0 + bn1b_y);
+  const Real b_1 = state.z[0] * bKx1 - (bdn2_y - (push1_0 + c1 * model.c4));
   const Real S0b_zz = s1 * S1b_t - model.c1;
   const Real y_0 = b_0 / S0b_zz;
   const Real y_1 = b_1 * model.invD_1;
   const Real driveal1o_x = state.z[0] * state.z[1];
-  const Real driveal2p_x = c1 * driveal1o_x + s1 * y_0;
+  const Real driveal2p_x = c1 * driveal1o_x - s1 * y_0;
   const Real driveQp2 = driveal2p_x * Real(0.0022);
   const Real reactla2p_y = c1 * Real(9.81);
-  const Real reactla2np_y = c1 * y_0 - s1 * driveal1o_x;
-  const Real reactla2A_x = reactla2np_y + model.speed * state.z[1];
+  const Real reactla2A_x = c1 * y_0 + (s1 * driveal1o_x - model.speed * state.z[1]);
   const Real reactla2A_y = y_1 + model.speed * w2pp_y;
   const Real react3b3w_x = s2 * state.z[1] + c2 * w2pp_y;
   const Real react3b3w_y = c2 * state.z[1] - s2 * w2pp_y;
-  const Real react3b3al_x = c2 * reactla2A_x - s2 * reactla2A_y;
-  const Real react3b3al_y = c2 * reactla2A_y + s2 * reactla2A_x;
-  const Real react3b3a_x = c2 * reactla2p_y;
-  const Real react3b3a_y = s2 * reactla2p_y;
+  const Real react3b3al_x = c2 * reactla2A_x + s2 * reactla2A_y;
+  const Real react3b3al_y = c2 * reactla2A_y - s2 * reactla2A_x;
   const Real react3b3Sw_z = w2_z * Real(9.999999999999983e-05);
-  const Real react3b3F_y = react3b3a_y * Real(1.2);
+  const Real react3b3F_y = reactla2p_y * (s2 * Real(1.2));
   const Real react3b3F_z = s1 * Real(11.772);
-  const Real react3b3N_x = react3b3al_x * Real(0.0012) + w2_z * react3b3w_y * Real(0.0011) - react3b3w_y *
-      react3b3Sw_z;
-  const Real react3b3N_y = react3b3al_y * Real(0.0012) + Real(0.0011) * (w2_z * react3b3w_x) - react3b3w_x *
-      react3b3Sw_z;
-  const Real react3cf_x = react3b3a_x * Real(1.2);
+  const Real t77 = w2_z * Real(0.0011);
+  const Real react3b3N_x = react3b3al_x * Real(0.0012) - (react3b3w_y * t77 - react3b3w_y * react3b3Sw_z);
+  const Real react3b3N_y = react3b3al_y * Real(0.0012) + (react3b3w_x * t77 - react3b3w_x * react3b3Sw_z);
+  const Real react3cf_x = reactla2p_y * (c2 * Real(1.2));
   result.motor_torque = driveQp2;
   result.rotor_bearing.force[0] = -react3b3F_y;
   result.rotor_bearing.force[1] = react3b3F_z;
   result.rotor_bearing.force[2] = react3cf_x;
   result.rotor_bearing.moment[0] = -react3b3N_y;
   result.rotor_bearing.moment[1] = driveQp2;
-  result.rotor_bearing.moment[2] = react3b3N_x;
+  result.rotor_bearing.moment[2] = -react3b3N_x;
 }
 
 template <class Real> JOURDAIN_FUNCTION

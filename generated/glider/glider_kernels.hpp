@@ -300,10 +300,10 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real expression_16 = expression_14 - expression_15;
   const Real expression_17 = expression_5 * expression_16;
   const Real expression_18 = expression_7 + model.trim;
-  const Real expression_19 = expression_4 * expression_18 * model.stiffness;
+  const Real expression_19 = expression_18 * (expression_4 * model.stiffness);
   const Real expression_20 = state.z[2] * model.expression_2;
   const Real expression_21 = expression_19 - expression_20;
-  const Real expression_22 = expression_4 * expression_21 * model.expression_3;
+  const Real expression_22 = expression_21 * (expression_4 * model.expression_3);
   const Real q_1 = expression_17 - model.bQp12;
   q[0] = expression_13;
   q[1] = -q_1;
@@ -326,19 +326,18 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real expression_10 = model.functions.lift(t12);
   const Real expression_11 = state.z[1] * expression_10;
   const Real expression_12 = expression_9 + expression_11;
-  const Real expression_13 = expression_5 * expression_12;
-  const Real expression_14 = state.z[0] * expression_10;
-  const Real expression_15 = state.z[1] * expression_8;
-  const Real expression_16 = expression_14 - expression_15;
-  const Real expression_17 = expression_5 * expression_16;
-  const Real expression_18 = expression_7 + model.trim;
-  const Real expression_19 = expression_4 * expression_18 * model.stiffness;
-  const Real expression_20 = state.z[2] * model.expression_2;
-  const Real expression_21 = expression_19 - expression_20;
-  const Real b_1 = expression_17 - model.bQp12;
-  const Real y_0 = expression_13 * model.invD_1;
+  const Real expression_13 = state.z[0] * expression_10;
+  const Real expression_14 = state.z[1] * expression_8;
+  const Real expression_15 = expression_13 - expression_14;
+  const Real expression_16 = expression_5 * expression_15;
+  const Real expression_17 = expression_7 + model.trim;
+  const Real expression_18 = expression_17 * (expression_4 * model.stiffness);
+  const Real expression_19 = state.z[2] * model.expression_2;
+  const Real expression_20 = expression_18 - expression_19;
+  const Real b_1 = expression_16 - model.bQp12;
+  const Real y_0 = expression_12 * (expression_5 * model.invD_1);
   const Real y_1 = b_1 * model.invD_1;
-  const Real y_2 = expression_4 * expression_21 * model.c9;
+  const Real y_2 = expression_20 * (expression_4 * model.c9);
   zdot[0] = -y_0;
   zdot[1] = y_1;
   zdot[2] = y_2;
@@ -366,10 +365,10 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real expression_16 = expression_14 - expression_15;
   const Real expression_17 = expression_5 * expression_16;
   const Real expression_18 = expression_7 + model.trim;
-  const Real expression_19 = expression_4 * expression_18 * model.stiffness;
+  const Real expression_19 = expression_18 * (expression_4 * model.stiffness);
   const Real expression_20 = state.z[2] * model.expression_2;
   const Real expression_21 = expression_19 - expression_20;
-  const Real expression_22 = expression_4 * expression_21 * model.expression_3;
+  const Real expression_22 = expression_21 * (expression_4 * model.expression_3);
   const Real adf0t_z = zdot[0] * model.mass;
   const Real adn2_z = zdot[2] * model.S2b_zz_2;
   const Real tau_0_0 = expression_13 + adf0t_z;
@@ -382,8 +381,8 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
 
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept {
-  const Real T = state.z[2] * state.z[2] * model.lTh2 + (state.z[0] * state.z[0] + state.z[1] * state.z[1]) *
-      model.lTh0;
+  const Real T = model.lTh2 * (state.z[2] * state.z[2]) + (state.z[0] * state.z[0] + state.z[1] * state.z[1])
+      * model.lTh0;
   return T;
 }
 

@@ -270,8 +270,8 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noe
   const Real expression = s * model.radius;
   const Real derivative = c * model.radius;
   const Real zz_1 = state.z[0] * state.z[0];
-  const Real kco1_z = derivative * zz_1;
-  const Real kQ1_0 = (expression * kco1_z - derivative * (expression * (zz_1 + model.kL0w22))) * Real(0.1);
+  const Real kQ1_0 = (derivative * (expression * zz_1) - derivative * (expression * (zz_1 + model.kL0w22))) *
+      Real(0.1);
   k[0] = -kQ1_0;
 }
 
@@ -292,12 +292,11 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real derivative = c * model.radius;
   const Real push1_0 = state.z[0] * Real(0.01);
   const Real zz_1 = state.z[0] * state.z[0];
-  const Real bco1_z = derivative * zz_1;
-  const Real bdf1t_z = bco1_z * Real(0.1);
-  const Real b_0 = Real(0.1) * (derivative * (expression * (zz_1 + model.kL0w22))) - (push1_0 + expression *
-      (bdf1t_z + Real(0.9810000000000001)));
+  const Real bdf1t_z = derivative * (zz_1 * Real(0.1));
+  const Real b_0 = expression * (bdf1t_z + Real(0.9810000000000001)) + (push1_0 - derivative * (expression *
+      (Real(0.1) * (zz_1 + model.kL0w22))));
   const Real y_0 = b_0 * model.c4;
-  zdot[0] = y_0;
+  zdot[0] = -y_0;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -310,7 +309,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real push1_0 = state.z[0] * Real(0.01);
   const Real ala1zz = state.z[0] * state.z[0];
   const Real ala1L_x = derivative * zdot[0] - expression * (ala1zz + model.kL0w22);
-  const Real ala1L_z = expression * zdot[0] + derivative * ala1zz + Real(9.81);
+  const Real ala1L_z = derivative * ala1zz + (expression * zdot[0] + Real(9.81));
   const Real tau_1_0 = push1_0 + (expression * ala1L_z + derivative * ala1L_x) * Real(0.1);
   tau[0] = tau_1_0;
 }
@@ -320,8 +319,8 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   Real s, c;
   detail::sine_cosine(state.y[0], s, c);
   const Real expression = s * model.radius;
-  const Real S1c_xx = expression * expression * Real(0.1) + Real(0.2);
-  const Real vrel1_x = model.radius * (c * state.z[0]);
+  const Real S1c_xx = expression * (expression * Real(0.1)) + Real(0.2);
+  const Real vrel1_x = c * (model.radius * state.z[0]);
   const Real vrel1_z = expression * state.z[0];
   const Real T1 = (S1c_xx * model.kL0w22 + Real(0.1) * (vrel1_x * vrel1_x + vrel1_z * vrel1_z)) * Real(0.5);
   return T1;
@@ -344,7 +343,7 @@ void outputs(const Model<Real>& model, const State<Real>& state, const Input<Rea
   const Real derivative = c * model.radius;
   Real s0, c0;
   detail::sine_cosine(expression, s0, c0);
-  const Real driven1c_z = expression_2 * (derivative * state.z[0]) * model.c7;
+  const Real driven1c_z = derivative * (expression_2 * (state.z[0] * model.c7));
   const Real bead_bodyx1_x = expression_2 * c0;
   const Real bead_bodyx1_y = expression_2 * s0;
   result.motor_torque = driven1c_z;

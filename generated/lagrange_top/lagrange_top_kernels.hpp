@@ -78,14 +78,14 @@ void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[4]
   const Real half_0_0 = state.z[0] * Real(0.5);
   const Real half_0_1 = Real(0.5) * state.z[1];
   const Real half_0_2 = Real(0.5) * state.z[2];
-  const Real qdot_0_0 = half_0_0 * state.y[1] + half_0_1 * state.y[2] + half_0_2 * state.y[3];
-  const Real qdot_0_1 = half_0_0 * state.y[0] + half_0_2 * state.y[2] - half_0_1 * state.y[3];
-  const Real qdot_0_2 = half_0_1 * state.y[0] - half_0_2 * state.y[1] + half_0_0 * state.y[3];
-  const Real qdot_0_3 = half_0_2 * state.y[0] + half_0_1 * state.y[1] - half_0_0 * state.y[2];
+  const Real qdot_0_0 = half_0_2 * state.y[3] + (half_0_0 * state.y[1] + half_0_1 * state.y[2]);
+  const Real qdot_0_1 = half_0_1 * state.y[3] - (half_0_0 * state.y[0] + half_0_2 * state.y[2]);
+  const Real qdot_0_2 = half_0_0 * state.y[3] + (half_0_1 * state.y[0] - half_0_2 * state.y[1]);
+  const Real qdot_0_3 = half_0_0 * state.y[2] - (half_0_2 * state.y[0] + half_0_1 * state.y[1]);
   ydot[0] = -qdot_0_0;
-  ydot[1] = qdot_0_1;
+  ydot[1] = -qdot_0_1;
   ydot[2] = qdot_0_2;
-  ydot[3] = qdot_0_3;
+  ydot[3] = -qdot_0_3;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -100,10 +100,8 @@ void mass_matrix(const Model<Real>&, const State<Real>&, Real (&M)[3][3]) noexce
 
 template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[3]) noexcept {
-  const Real kww00 = state.z[1] * state.z[2];
-  const Real kww01 = state.z[2] * state.z[0];
-  const Real kdn0_x = kww00 * Real(0.039999999999999994);
-  const Real kdn0_y = kww01 * Real(0.039999999999999994);
+  const Real kdn0_x = Real(0.039999999999999994) * (state.z[1] * state.z[2]);
+  const Real kdn0_y = Real(0.039999999999999994) * (state.z[2] * state.z[0]);
   k[0] = kdn0_x;
   k[1] = -kdn0_y;
   k[2] = Real(0.0);
@@ -114,8 +112,8 @@ void q_bar(const Model<Real>&, const State<Real>& state, const Input<Real>&, Rea
   const Real q0d3 = state.y[3] * Real(2.0);
   const Real q013 = state.y[1] * q0d3;
   const Real q023 = state.y[2] * q0d3;
-  const Real q001 = Real(2.0) * (state.y[1] * state.y[0]);
-  const Real q002 = Real(2.0) * (state.y[2] * state.y[0]);
+  const Real q001 = state.y[0] * (state.y[1] * Real(2.0));
+  const Real q002 = state.y[0] * (state.y[2] * Real(2.0));
   const Real q0r2_x = q013 - q002;
   const Real q0r2_y = q023 + q001;
   const Real q_0 = q0r2_y * Real(0.9810000000000001);
@@ -131,16 +129,14 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real q0d3 = state.y[3] * Real(2.0);
   const Real q013 = state.y[1] * q0d3;
   const Real q023 = state.y[2] * q0d3;
-  const Real q001 = Real(2.0) * (state.y[1] * state.y[0]);
-  const Real q002 = Real(2.0) * (state.y[2] * state.y[0]);
+  const Real q001 = state.y[0] * (state.y[1] * Real(2.0));
+  const Real q002 = state.y[0] * (state.y[2] * Real(2.0));
   const Real q0r2_x = q013 - q002;
   const Real q0r2_y = q023 + q001;
   const Real bQp0_x = q0r2_y * Real(0.9810000000000001);
   const Real bQp0_y = q0r2_x * Real(0.9810000000000001);
-  const Real bww00 = state.z[1] * state.z[2];
-  const Real bww01 = state.z[2] * state.z[0];
-  const Real bdn0_x = bww00 * Real(0.039999999999999994);
-  const Real bdn0_y = bww01 * Real(0.039999999999999994);
+  const Real bdn0_x = Real(0.039999999999999994) * (state.z[1] * state.z[2]);
+  const Real bdn0_y = Real(0.039999999999999994) * (state.z[2] * state.z[0]);
   const Real bQ0_0 = bQp0_x + bdn0_x;
   const Real bQ0_1 = bQp0_y + bdn0_y;
   const Real y_0 = bQ0_0 * Real(16.666666666666668);
@@ -156,19 +152,15 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real q0d3 = state.y[3] * Real(2.0);
   const Real q013 = state.y[1] * q0d3;
   const Real q023 = state.y[2] * q0d3;
-  const Real q001 = Real(2.0) * (state.y[1] * state.y[0]);
-  const Real q002 = Real(2.0) * (state.y[2] * state.y[0]);
+  const Real q001 = state.y[0] * (state.y[1] * Real(2.0));
+  const Real q002 = state.y[0] * (state.y[2] * Real(2.0));
   const Real q0r2_x = q013 - q002;
   const Real q0r2_y = q023 + q001;
   const Real aQp0_x = q0r2_y * Real(0.9810000000000001);
   const Real aQp0_y = q0r2_x * Real(0.9810000000000001);
-  const Real aww00 = state.z[1] * state.z[2];
-  const Real aww01 = state.z[2] * state.z[0];
-  const Real adn0_x = aww00 * Real(0.039999999999999994) - zdot[0] * Real(0.06);
-  const Real adn0_y = aww01 * Real(0.039999999999999994) + Real(0.06) * zdot[1];
   const Real adn0_z = zdot[2] * Real(0.02);
-  const Real aQ0_0 = aQp0_x + adn0_x;
-  const Real aQ0_1 = aQp0_y + adn0_y;
+  const Real aQ0_0 = aQp0_x + (Real(0.039999999999999994) * (state.z[1] * state.z[2]) - zdot[0] * Real(0.06));
+  const Real aQ0_1 = aQp0_y + (Real(0.039999999999999994) * (state.z[2] * state.z[0]) + Real(0.06) * zdot[1]);
   tau[0] = -aQ0_0;
   tau[1] = aQ0_1;
   tau[2] = adn0_z;
@@ -176,8 +168,8 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
 
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
-  const Real v0T = (state.z[2] * state.z[2] * Real(0.02) + (state.z[0] * state.z[0] + state.z[1] * state.z[1])
-      * Real(0.06)) * Real(0.5);
+  const Real v0T = (Real(0.02) * (state.z[2] * state.z[2]) + (state.z[0] * state.z[0] + state.z[1] *
+      state.z[1]) * Real(0.06)) * Real(0.5);
   return v0T;
 }
 
@@ -217,10 +209,8 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
   const Real ba0_y = q0r2_y * Real(9.81);
   const Real bQp0_x = ba0_y * Real(0.1);
   const Real bQp0_y = ba0_x * Real(0.1);
-  const Real bww00 = state.z[1] * state.z[2];
-  const Real bww01 = state.z[2] * state.z[0];
-  const Real bdn0_x = bww00 * Real(0.039999999999999994);
-  const Real bdn0_y = bww01 * Real(0.039999999999999994);
+  const Real bdn0_x = Real(0.039999999999999994) * (state.z[1] * state.z[2]);
+  const Real bdn0_y = Real(0.039999999999999994) * (state.z[2] * state.z[0]);
   const Real bQ0_0 = bQp0_x + bdn0_x;
   const Real bQ0_1 = bQp0_y + bdn0_y;
   const Real y_0 = bQ0_0 * Real(16.666666666666668);
@@ -228,8 +218,8 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
   const Real reactla0t_z = q0r2_z * Real(9.81);
   const Real react0b0wh_x = Real(0.1) * state.z[1];
   const Real react0b0wh_y = Real(0.1) * state.z[0];
-  const Real react0b0F_x = ba0_x - (Real(0.1) * y_1 - state.z[2] * react0b0wh_y);
-  const Real react0b0F_y = ba0_y - (Real(0.1) * y_0 - state.z[2] * react0b0wh_x);
+  const Real react0b0F_x = Real(0.1) * y_1 - (ba0_x + state.z[2] * react0b0wh_y);
+  const Real react0b0F_y = Real(0.1) * y_0 - (ba0_y + state.z[2] * react0b0wh_x);
   const Real react0b0F_z = reactla0t_z + (state.z[0] * react0b0wh_y + state.z[1] * react0b0wh_x);
   const Real react0b0N_x = bQ0_0 - y_0 * Real(0.06);
   const Real react0b0N_y = bQ0_1 - y_1 * Real(0.06);
@@ -245,8 +235,8 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
   result.pose.rotation[2][0] = q0r2_x;
   result.pose.rotation[2][1] = q0r2_y;
   result.pose.rotation[2][2] = -q0r2_z;
-  result.support.force[0] = react0b0F_x;
-  result.support.force[1] = react0b0F_y;
+  result.support.force[0] = -react0b0F_x;
+  result.support.force[1] = -react0b0F_y;
   result.support.force[2] = -react0b0F_z;
   result.support.moment[0] = -react0b0N_x;
   result.support.moment[1] = react0b0N_y;

@@ -300,11 +300,11 @@ void position_rate(const Model<Real>& model, const State<Real>& state, Real (&yd
   const Real q1r2_x = q113 - q102;
   const Real q1r2_y = q123 + q101;
   const Real q1r2_z = q122 + t26;
-  const Real strutax1p_x = q1r1_x * Real(0.01) - (q1r1_z * Real(0.2) + q1r1_y * Real(0.03)) - Real(0.34);
-  const Real strutax1p_y = q1r2_x * Real(0.01) + (q1r2_z * Real(0.2) + q1r2_y * Real(0.03) + Real(0.02));
+  const Real strutax1p_x = q1r1_x * Real(0.01) - Real(0.34) - (q1r1_z * Real(0.2) + q1r1_y * Real(0.03));
+  const Real strutax1p_y = q1r2_x * Real(0.01) + Real(0.02) + (q1r2_z * Real(0.2) + q1r2_y * Real(0.03));
   const Real strutax1_x = c0 * strutax1p_x - s0 * strutax1p_y;
   const Real strutax1_y = c0 * strutax1p_y + s0 * strutax1p_x;
-  const Real strutd_x = q1r0_x * Real(0.01) + (q1r0_z * Real(0.2) - q1r0_y * Real(0.03)) + Real(0.04);
+  const Real strutd_x = q1r0_z * Real(0.2) + Real(0.04) + (q1r0_x * Real(0.01) - q1r0_y * Real(0.03));
   const Real strutd_y = strutax1_x + Real(0.22999999999999998);
   const Real strutd_z = strutax1_y + Real(0.5800000000000001);
   const Real strutad1p_x = q1r1_y * Real(0.35112344158839165) + q1r1_x * Real(0.9363291775690445);
@@ -312,90 +312,90 @@ void position_rate(const Model<Real>& model, const State<Real>& state, Real (&yd
   const Real strutad1p_z = q1r0_y * Real(0.35112344158839165) + q1r0_x * Real(0.9363291775690445);
   const Real strutad1_x = c0 * strutad1p_x + s0 * strutad1p_y;
   const Real strutad1_y = c0 * strutad1p_y - s0 * strutad1p_x;
-  const Real strutad1p_x_2 = q1r1_z * Real(0.2088879845220991) + (q1r1_x * Real(0.3433775088034506) - q1r1_y *
-      Real(0.9156733568092016));
+  const Real strutad1p_x_2 = q1r1_y * Real(0.9156733568092016) - (q1r1_x * Real(0.3433775088034506) + q1r1_z *
+      Real(0.2088879845220991));
   const Real strutad1p_y_2 = q1r2_z * Real(0.2088879845220991) - (q1r2_x * Real(0.3433775088034506) + q1r2_y *
       Real(0.9156733568092016));
-  const Real strutad1p_z_2 = q1r0_z * Real(0.2088879845220991) - (q1r0_x * Real(0.3433775088034506) - q1r0_y *
+  const Real strutad1p_z_2 = q1r0_x * Real(0.3433775088034506) - (q1r0_z * Real(0.2088879845220991) + q1r0_y *
       Real(0.9156733568092016));
-  const Real strutad1_x_2 = c0 * strutad1p_x_2 + s0 * strutad1p_y_2;
-  const Real strutad1_y_2 = c0 * strutad1p_y_2 - s0 * strutad1p_x_2;
+  const Real strutad1_x_2 = c0 * strutad1p_x_2 - s0 * strutad1p_y_2;
+  const Real strutad1_y_2 = c0 * strutad1p_y_2 + s0 * strutad1p_x_2;
   const detail::Angle<Real> expression = detail::Angle<Real>(state.t) * model.rate;
   Real s, c;
   detail::sine_cosine(expression, s, c);
   const Real expression_2 = Real(1.0) - c;
   const Real expression_3 = expression_2 * model.c1;
-  const Real tie_rodbx1p_x = q1r1_x * Real(0.14) - (Real(0.34) + (q1r1_z * Real(0.07) + q1r1_y * Real(0.02)));
-  const Real tie_rodbx1p_y = q1r2_x * Real(0.14) + (Real(0.02) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02)));
-  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x - s0 * tie_rodbx1p_y;
-  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y + s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_y * Real(0.02) - (q1r0_x * Real(0.14) + q1r0_z * Real(0.07)) - Real(0.14);
-  const Real tie_rodd_y = expression_3 + tie_rodbx1_x;
+  const Real tie_rodbx1p_x = Real(0.34) - q1r1_x * Real(0.14) + (q1r1_z * Real(0.07) + q1r1_y * Real(0.02));
+  const Real tie_rodbx1p_y = Real(0.02) + q1r2_x * Real(0.14) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02));
+  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
+  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
+  const Real tie_rodd_x = q1r0_z * Real(0.07) + Real(0.14) + (q1r0_x * Real(0.14) - q1r0_y * Real(0.02));
+  const Real tie_rodd_y = expression_3 - tie_rodbx1_x;
   const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
   const Real struts0an0_z = strutd_y * strutad1_y + strutd_z * strutad1_x;
-  const Real struts0am_z = strutax1_x * strutad1_y - (struts0an0_z - strutax1_y * strutad1_x);
+  const Real struts0am_z = struts0an0_z - (strutax1_x * strutad1_y + strutax1_y * strutad1_x);
   const Real struts0af1_y = q1r1_y * strutad1p_x + (q1r0_y * strutad1p_z + q1r2_y * strutad1p_y);
   const Real struts0af1_z = q1r1_z * strutad1p_x - (q1r0_z * strutad1p_z - q1r2_z * strutad1p_y);
   const Real struts0an0_x = strutd_x * strutad1_y + strutd_z * strutad1p_z;
   const Real struts0an0_y = strutd_x * strutad1_x - strutd_y * strutad1p_z;
   const Real struts0an1p_x = c0 * struts0an0_x + s0 * struts0an0_y;
   const Real struts0an1p_y = c0 * struts0an0_y - s0 * struts0an0_x;
-  const Real struts0am_x = q1r1_x * struts0an1p_x - (q1r0_x * struts0an0_z - (q1r2_x * struts0an1p_y -
+  const Real struts0am_x = q1r2_x * struts0an1p_y + (q1r1_x * struts0an1p_x - (q1r0_x * struts0an0_z +
       (Real(0.2) * struts0af1_y - Real(0.03) * struts0af1_z)));
   const Real struts0af1_x = q1r1_x * strutad1p_x + (q1r0_x * strutad1p_z - q1r2_x * strutad1p_y);
-  const Real struts0am_y = q1r1_y * struts0an1p_x - (q1r0_y * struts0an0_z + (q1r2_y * struts0an1p_y -
+  const Real struts0am_y = q1r2_y * struts0an1p_y - (q1r1_y * struts0an1p_x - (q1r0_y * struts0an0_z -
       (Real(0.01) * struts0af1_z + Real(0.2) * struts0af1_x)));
-  const Real struts0am_z_2 = q1r1_z * struts0an1p_x + (q1r0_z * struts0an0_z - (q1r2_z * struts0an1p_y +
+  const Real struts0am_z_2 = q1r2_z * struts0an1p_y - (q1r1_z * struts0an1p_x + (q1r0_z * struts0an0_z -
       (Real(0.01) * struts0af1_y + Real(0.03) * struts0af1_x)));
-  const Real struts1an0_z = strutd_y * strutad1_y_2 + strutd_z * strutad1_x_2;
-  const Real struts1af1_y = q1r1_y * strutad1p_x_2 - (q1r0_y * strutad1p_z_2 - q1r2_y * strutad1p_y_2);
-  const Real struts1af1_z = q1r1_z * strutad1p_x_2 + (q1r0_z * strutad1p_z_2 + q1r2_z * strutad1p_y_2);
-  const Real struts1an0_x = strutd_x * strutad1_y_2 - strutd_z * strutad1p_z_2;
+  const Real struts1an0_z = strutd_y * strutad1_y_2 - strutd_z * strutad1_x_2;
+  const Real struts1af1_y = q1r2_y * strutad1p_y_2 + (q1r0_y * strutad1p_z_2 - q1r1_y * strutad1p_x_2);
+  const Real struts1af1_z = q1r2_z * strutad1p_y_2 - (q1r0_z * strutad1p_z_2 + q1r1_z * strutad1p_x_2);
+  const Real struts1an0_x = strutd_x * strutad1_y_2 + strutd_z * strutad1p_z_2;
   const Real struts1an0_y = strutd_x * strutad1_x_2 + strutd_y * strutad1p_z_2;
-  const Real struts1an1p_x = c0 * struts1an0_x + s0 * struts1an0_y;
-  const Real struts1an1p_y = c0 * struts1an0_y - s0 * struts1an0_x;
-  const Real struts1af1_x = q1r1_x * strutad1p_x_2 - (q1r0_x * strutad1p_z_2 + q1r2_x * strutad1p_y_2);
-  const Real struts1am_y = q1r1_y * struts1an1p_x - (q1r0_y * struts1an0_z + (q1r2_y * struts1an1p_y -
-      (Real(0.01) * struts1af1_z + Real(0.2) * struts1af1_x)));
+  const Real struts1an1p_x = c0 * struts1an0_x - s0 * struts1an0_y;
+  const Real struts1an1p_y = c0 * struts1an0_y + s0 * struts1an0_x;
+  const Real struts1af1_x = q1r2_x * strutad1p_y_2 - (q1r0_x * strutad1p_z_2 - q1r1_x * strutad1p_x_2);
+  const Real struts1am_y = q1r2_y * struts1an1p_y + (q1r1_y * struts1an1p_x - (q1r0_y * struts1an0_z -
+      (Real(0.01) * struts1af1_z - Real(0.2) * struts1af1_x)));
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
   const Real tie_rods0bf0_y = tie_rodd_z * Real(3.123475237772121);
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
   const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x + s0 * tie_rods0bf0_y;
   const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y - s0 * tie_rods0bf0_x;
-  const Real tie_rods0bf1_y = q1r1_y * tie_rods0bf1p_x - (q1r0_y * tie_rods0bf0_z + q1r2_y * tie_rods0bf1p_y);
-  const Real tie_rods0bf1_z = q1r1_z * tie_rods0bf1p_x + (q1r0_z * tie_rods0bf0_z - q1r2_z * tie_rods0bf1p_y);
-  const Real tie_rods0bf1_x = q1r1_x * tie_rods0bf1p_x - (q1r0_x * tie_rods0bf0_z - q1r2_x * tie_rods0bf1p_y);
-  const Real tie_rods0bm_y = Real(0.14) * tie_rods0bf1_z + Real(0.07) * tie_rods0bf1_x;
-  const Real t292 = Real(1.0) / struts0am_y;
-  const Real t293 = struts1am_y * t292;
-  const Real t305 = q1r1_z * struts1an1p_x + (q1r0_z * struts1an0_z - (q1r2_z * struts1an1p_y + (Real(0.01) *
-      struts1af1_y + (Real(0.03) * struts1af1_x + struts0am_z_2 * t293))));
-  const Real t306 = tie_rods0bm_y * t292;
-  const Real t311 = Real(1.0) / (q1r1_x * struts1an1p_x - (q1r0_x * struts1an0_z - (q1r2_x * struts1an1p_y -
-      (Real(0.2) * struts1af1_y - (Real(0.03) * struts1af1_z - struts0am_x * t293)))));
-  const Real t312 = (Real(0.02) * tie_rods0bf1_z - (Real(0.07) * tie_rods0bf1_y + struts0am_x * t306)) * t311;
-  const Real t317 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (struts0am_z_2 *
-      t306 + t305 * t312)));
-  const Real t321 = strutax1_x * strutad1_y_2 - (struts1an0_z - (strutax1_y * strutad1_x_2 - struts0am_z *
-      t293));
-  const Real t327 = t317 * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y + (struts0am_z *
-      t306 + t312 * t321)));
-  const Real t330 = t311 * (t321 + t305 * t327);
-  const Real t342 = tie_rods0bf0_x * s * t317 * model.c2;
-  const Real t344 = t311 * (t305 * t342);
-  const Real t349 = t330 * state.z[0] - t344;
-  const Real t350 = t292 * (struts0am_x * t330 - (struts0am_z + struts0am_z_2 * t327)) * state.z[0] - t292 *
+  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y - (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y + (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y + (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
+  const Real tie_rods0bm_y = Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x;
+  const Real t291 = Real(1.0) / struts0am_y;
+  const Real t292 = struts1am_y * t291;
+  const Real t304 = struts0am_z_2 * t292 - (q1r2_z * struts1an1p_y + (q1r1_z * struts1an1p_x + (q1r0_z *
+      struts1an0_z - (Real(0.01) * struts1af1_y - Real(0.03) * struts1af1_x))));
+  const Real t305 = tie_rods0bm_y * t291;
+  const Real t310 = Real(1.0) / (struts0am_x * t292 - (q1r2_x * struts1an1p_y - (q1r1_x * struts1an1p_x -
+      (q1r0_x * struts1an0_z + (Real(0.2) * struts1af1_y - Real(0.03) * struts1af1_z)))));
+  const Real t311 = (struts0am_x * t305 - (Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z)) * t310;
+  const Real t316 = Real(1.0) / (t304 * t311 - (struts0am_z_2 * t305 + (Real(0.14) * tie_rods0bf1_y -
+      Real(0.02) * tie_rods0bf1_x)));
+  const Real t320 = struts0am_z * t292 + (struts1an0_z - (strutax1_x * strutad1_y_2 - strutax1_y *
+      strutad1_x_2));
+  const Real t326 = t316 * (t311 * t320 - (struts0am_z * t305 + (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y
+      * tie_rods0bf0_x)));
+  const Real t329 = t310 * (t320 - t304 * t326);
+  const Real t342 = t316 * (tie_rods0bf0_x * (s * model.c2));
+  const Real t344 = t342 * (t304 * t310);
+  const Real t349 = t329 * state.z[0] - t344;
+  const Real t350 = (struts0am_x * t329 - (struts0am_z - struts0am_z_2 * t326)) * (t291 * state.z[0]) - t291 *
       (struts0am_x * t344 - struts0am_z_2 * t342);
-  const Real t351 = t327 * state.z[0] - t342;
+  const Real t351 = t326 * state.z[0] + t342;
   const Real t353 = state.y[1] * Real(0.5);
   const Real t354 = state.y[2] * Real(0.5);
   const Real t355 = state.y[3] * Real(0.5);
   const Real t356 = state.y[4] * Real(0.5);
   ydot[0] = state.z[0];
-  ydot[1] = -(t350 * t355 + (t349 * t354 - t351 * t356));
-  ydot[2] = -(t350 * t356 - (t349 * t353 - t351 * t355));
-  ydot[3] = t350 * t353 + (t349 * t356 + t351 * t354);
-  ydot[4] = t350 * t354 - (t349 * t355 + t351 * t353);
+  ydot[1] = -(t350 * t355 - (t349 * t354 - t351 * t356));
+  ydot[2] = -(t350 * t356 + (t349 * t353 - t351 * t355));
+  ydot[3] = t350 * t353 - (t349 * t356 + t351 * t354);
+  ydot[4] = t350 * t354 + (t349 * t355 + t351 * t353);
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -414,7 +414,7 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1
   const Real q101 = q1d1 * state.y[1];
   const Real q102 = q1d2 * state.y[1];
   const Real q103 = q1d3 * state.y[1];
-  const Real q1r0_x = q122 + q133 - Real(1.0);
+  const Real q1r0_x = q133 + (q122 - Real(1.0));
   const Real q1r0_y = q112 - q103;
   const Real q1r0_z = q113 + q102;
   const Real q1r1_x = q112 + q103;
@@ -424,12 +424,12 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1
   const Real q1r2_x = q113 - q102;
   const Real q1r2_y = q123 + q101;
   const Real q1r2_z = q122 + t26;
-  const Real strutax1p_x = q1r1_y * Real(0.03) - (q1r1_x * Real(0.01) - q1r1_z * Real(0.2)) + Real(0.34);
-  const Real strutax1p_y = q1r2_y * Real(0.03) + (q1r2_x * Real(0.01) + q1r2_z * Real(0.2)) + Real(0.02);
-  const Real strutax1_x = c0 * strutax1p_x + s0 * strutax1p_y;
-  const Real strutax1_y = c0 * strutax1p_y - s0 * strutax1p_x;
-  const Real strutd_x = q1r0_y * Real(0.03) - (q1r0_x * Real(0.01) + q1r0_z * Real(0.2)) - Real(0.04);
-  const Real strutd_y = strutax1_x - Real(0.22999999999999998);
+  const Real strutax1p_x = q1r1_x * Real(0.01) - Real(0.34) - (q1r1_z * Real(0.2) + q1r1_y * Real(0.03));
+  const Real strutax1p_y = q1r2_x * Real(0.01) + Real(0.02) + (q1r2_z * Real(0.2) + q1r2_y * Real(0.03));
+  const Real strutax1_x = c0 * strutax1p_x - s0 * strutax1p_y;
+  const Real strutax1_y = c0 * strutax1p_y + s0 * strutax1p_x;
+  const Real strutd_x = q1r0_z * Real(0.2) + Real(0.04) + (q1r0_x * Real(0.01) - q1r0_y * Real(0.03));
+  const Real strutd_y = strutax1_x + Real(0.22999999999999998);
   const Real strutd_z = strutax1_y + Real(0.5800000000000001);
   const Real strutad1p_x = q1r1_y * Real(0.35112344158839165) + q1r1_x * Real(0.9363291775690445);
   const Real strutad1p_y = q1r2_y * Real(0.35112344158839165) - q1r2_x * Real(0.9363291775690445);
@@ -438,48 +438,48 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1
   const Real strutad1_y = c0 * strutad1p_y - s0 * strutad1p_x;
   const Real strutad1p_x_2 = q1r1_y * Real(0.9156733568092016) - (q1r1_x * Real(0.3433775088034506) + q1r1_z *
       Real(0.2088879845220991));
-  const Real strutad1p_y_2 = q1r2_y * Real(0.9156733568092016) + (q1r2_x * Real(0.3433775088034506) - q1r2_z *
-      Real(0.2088879845220991));
-  const Real strutad1p_z_2 = q1r0_y * Real(0.9156733568092016) - (q1r0_x * Real(0.3433775088034506) - q1r0_z *
-      Real(0.2088879845220991));
-  const Real strutad1_x_2 = c0 * strutad1p_x_2 + s0 * strutad1p_y_2;
-  const Real strutad1_y_2 = c0 * strutad1p_y_2 - s0 * strutad1p_x_2;
+  const Real strutad1p_y_2 = q1r2_z * Real(0.2088879845220991) - (q1r2_x * Real(0.3433775088034506) + q1r2_y *
+      Real(0.9156733568092016));
+  const Real strutad1p_z_2 = q1r0_x * Real(0.3433775088034506) - (q1r0_z * Real(0.2088879845220991) + q1r0_y *
+      Real(0.9156733568092016));
+  const Real strutad1_x_2 = c0 * strutad1p_x_2 - s0 * strutad1p_y_2;
+  const Real strutad1_y_2 = c0 * strutad1p_y_2 + s0 * strutad1p_x_2;
   const detail::Angle<Real> expression = detail::Angle<Real>(state.t) * model.rate;
   const Real c = detail::cosine(expression);
   const Real expression_2 = Real(1.0) - c;
   const Real expression_3 = expression_2 * model.c1;
-  const Real tie_rodbx1p_x = q1r1_y * Real(0.02) + (q1r1_z * Real(0.07) + (Real(0.34) - q1r1_x * Real(0.14)));
-  const Real tie_rodbx1p_y = q1r2_y * Real(0.02) + (q1r2_z * Real(0.07) + (Real(0.02) + q1r2_x * Real(0.14)));
+  const Real tie_rodbx1p_x = Real(0.34) - q1r1_x * Real(0.14) + (q1r1_z * Real(0.07) + q1r1_y * Real(0.02));
+  const Real tie_rodbx1p_y = Real(0.02) + q1r2_x * Real(0.14) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02));
   const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
   const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) - q1r0_y * Real(0.02)) + Real(0.14);
+  const Real tie_rodd_x = q1r0_z * Real(0.07) + Real(0.14) + (q1r0_x * Real(0.14) - q1r0_y * Real(0.02));
   const Real tie_rodd_y = expression_3 - tie_rodbx1_x;
   const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
-  const Real struts0an0_z = strutd_y * strutad1_y - strutd_z * strutad1_x;
-  const Real struts0am_z = strutax1_y * strutad1_x + (struts0an0_z - strutax1_x * strutad1_y);
-  const Real struts0af1_y = q1r2_y * strutad1p_y + (q1r0_y * strutad1p_z + q1r1_y * strutad1p_x);
-  const Real struts0af1_z = q1r2_z * strutad1p_y - (q1r0_z * strutad1p_z - q1r1_z * strutad1p_x);
-  const Real struts0an0_x = strutd_x * strutad1_y - strutd_z * strutad1p_z;
+  const Real struts0an0_z = strutd_y * strutad1_y + strutd_z * strutad1_x;
+  const Real struts0am_z = struts0an0_z - (strutax1_x * strutad1_y + strutax1_y * strutad1_x);
+  const Real struts0af1_y = q1r1_y * strutad1p_x + (q1r0_y * strutad1p_z + q1r2_y * strutad1p_y);
+  const Real struts0af1_z = q1r1_z * strutad1p_x - (q1r0_z * strutad1p_z - q1r2_z * strutad1p_y);
+  const Real struts0an0_x = strutd_x * strutad1_y + strutd_z * strutad1p_z;
   const Real struts0an0_y = strutd_x * strutad1_x - strutd_y * strutad1p_z;
   const Real struts0an1p_x = c0 * struts0an0_x + s0 * struts0an0_y;
   const Real struts0an1p_y = c0 * struts0an0_y - s0 * struts0an0_x;
-  const Real struts0am_x = Real(0.03) * struts0af1_z - (Real(0.2) * struts0af1_y + (q1r2_x * struts0an1p_y -
-      (q1r0_x * struts0an0_z - q1r1_x * struts0an1p_x)));
-  const Real struts0af1_x = q1r2_x * strutad1p_y - (q1r0_x * strutad1p_z + q1r1_x * strutad1p_x);
-  const Real struts0am_y = Real(0.2) * struts0af1_x - (Real(0.01) * struts0af1_z + (q1r2_y * struts0an1p_y +
-      (q1r0_y * struts0an0_z - q1r1_y * struts0an1p_x)));
-  const Real struts0am_z_2 = Real(0.03) * struts0af1_x - (Real(0.01) * struts0af1_y - (q1r2_z * struts0an1p_y
-      - (q1r0_z * struts0an0_z + q1r1_z * struts0an1p_x)));
+  const Real struts0am_x = q1r2_x * struts0an1p_y + (q1r1_x * struts0an1p_x - (q1r0_x * struts0an0_z +
+      (Real(0.2) * struts0af1_y - Real(0.03) * struts0af1_z)));
+  const Real struts0af1_x = q1r1_x * strutad1p_x + (q1r0_x * strutad1p_z - q1r2_x * strutad1p_y);
+  const Real struts0am_y = q1r2_y * struts0an1p_y - (q1r1_y * struts0an1p_x - (q1r0_y * struts0an0_z -
+      (Real(0.01) * struts0af1_z + Real(0.2) * struts0af1_x)));
+  const Real struts0am_z_2 = q1r2_z * struts0an1p_y - (q1r1_z * struts0an1p_x + (q1r0_z * struts0an0_z -
+      (Real(0.01) * struts0af1_y + Real(0.03) * struts0af1_x)));
   const Real struts1an0_z = strutd_y * strutad1_y_2 - strutd_z * strutad1_x_2;
-  const Real struts1af1_y = q1r2_y * strutad1p_y_2 + (q1r0_y * strutad1p_z_2 + q1r1_y * strutad1p_x_2);
-  const Real struts1af1_z = q1r2_z * strutad1p_y_2 - (q1r0_z * strutad1p_z_2 - q1r1_z * strutad1p_x_2);
-  const Real struts1an0_x = strutd_x * strutad1_y_2 - strutd_z * strutad1p_z_2;
-  const Real struts1an0_y = strutd_x * strutad1_x_2 - strutd_y * strutad1p_z_2;
-  const Real struts1an1p_x = c0 * struts1an0_x + s0 * struts1an0_y;
-  const Real struts1an1p_y = c0 * struts1an0_y - s0 * struts1an0_x;
-  const Real struts1af1_x = q1r2_x * strutad1p_y_2 - (q1r0_x * strutad1p_z_2 + q1r1_x * strutad1p_x_2);
-  const Real struts1am_y = Real(0.2) * struts1af1_x - (Real(0.01) * struts1af1_z + (q1r2_y * struts1an1p_y +
-      (q1r0_y * struts1an0_z - q1r1_y * struts1an1p_x)));
+  const Real struts1af1_y = q1r2_y * strutad1p_y_2 + (q1r0_y * strutad1p_z_2 - q1r1_y * strutad1p_x_2);
+  const Real struts1af1_z = q1r2_z * strutad1p_y_2 - (q1r0_z * strutad1p_z_2 + q1r1_z * strutad1p_x_2);
+  const Real struts1an0_x = strutd_x * strutad1_y_2 + strutd_z * strutad1p_z_2;
+  const Real struts1an0_y = strutd_x * strutad1_x_2 + strutd_y * strutad1p_z_2;
+  const Real struts1an1p_x = c0 * struts1an0_x - s0 * struts1an0_y;
+  const Real struts1an1p_y = c0 * struts1an0_y + s0 * struts1an0_x;
+  const Real struts1af1_x = q1r2_x * strutad1p_y_2 - (q1r0_x * strutad1p_z_2 - q1r1_x * strutad1p_x_2);
+  const Real struts1am_y = q1r2_y * struts1an1p_y + (q1r1_y * struts1an1p_x - (q1r0_y * struts1an0_z -
+      (Real(0.01) * struts1af1_z - Real(0.2) * struts1af1_x)));
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
   const Real tie_rods0bf0_y = tie_rodd_z * Real(3.123475237772121);
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
@@ -491,19 +491,19 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1
   const Real tie_rods0bm_y = Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x;
   const Real t290 = Real(1.0) / struts0am_y;
   const Real t291 = struts1am_y * t290;
-  const Real t303 = struts0am_z_2 * t291 - (Real(0.03) * struts1af1_x - (Real(0.01) * struts1af1_y - (q1r2_z *
-      struts1an1p_y - (q1r0_z * struts1an0_z + q1r1_z * struts1an1p_x))));
+  const Real t303 = struts0am_z_2 * t291 - (q1r2_z * struts1an1p_y + (q1r1_z * struts1an1p_x + (q1r0_z *
+      struts1an0_z - (Real(0.01) * struts1af1_y - Real(0.03) * struts1af1_x))));
   const Real t304 = tie_rods0bm_y * t290;
-  const Real t309 = Real(1.0) / (struts0am_x * t291 - (Real(0.03) * struts1af1_z - (Real(0.2) * struts1af1_y +
-      (q1r2_x * struts1an1p_y - (q1r0_x * struts1an0_z - q1r1_x * struts1an1p_x)))));
+  const Real t309 = Real(1.0) / (struts0am_x * t291 - (q1r2_x * struts1an1p_y - (q1r1_x * struts1an1p_x -
+      (q1r0_x * struts1an0_z + (Real(0.2) * struts1af1_y - Real(0.03) * struts1af1_z)))));
   const Real t310 = (struts0am_x * t304 - (Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z)) * t309;
-  const Real t318 = struts0am_z * t291 - (strutax1_y * strutad1_x_2 + (struts1an0_z - strutax1_x *
-      strutad1_y_2));
-  const Real t324 = (t310 * t318 - (struts0am_z * t304 - (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y *
-      tie_rods0bf0_x))) / (t303 * t310 - (struts0am_z_2 * t304 - (Real(0.14) * tie_rods0bf1_y - Real(0.02) *
+  const Real t318 = struts0am_z * t291 + (struts1an0_z - (strutax1_x * strutad1_y_2 - strutax1_y *
+      strutad1_x_2));
+  const Real t324 = (t310 * t318 - (struts0am_z * t304 + (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y *
+      tie_rods0bf0_x))) / (t303 * t310 - (struts0am_z_2 * t304 + (Real(0.14) * tie_rods0bf1_y - Real(0.02) *
       tie_rods0bf1_x)));
   const Real t327 = t309 * (t318 - t303 * t324);
-  const Real t332 = t290 * (struts0am_z_2 * t324 - (struts0am_z - struts0am_x * t327));
+  const Real t332 = t290 * (struts0am_x * t327 - (struts0am_z - struts0am_z_2 * t324));
   const Real h1at1_x = q1r1_y * Real(1.14) - q1r1_z * Real(6.08);
   const Real h1at1_y = q1r2_y * Real(1.14) - q1r2_z * Real(6.08);
   const Real S1at1r0_y = q1r1_z * Real(0.1824) - q1r1_y * Real(0.3842000000000001);
@@ -512,15 +512,15 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1
   const Real S1at1r1_z = q1r2_z * Real(2.2228) - q1r2_y * Real(0.1824);
   const Real p_1_1f_x = q1r1_z * Real(1.14) + q1r1_y * Real(6.08);
   const Real p_1_1f_y = q1r2_z * Real(1.14) + q1r2_y * Real(6.08);
-  const Real p_1_1n_z = q1r0_x * Real(2.607) - (Real(0.02) * p_1_1f_x - Real(0.34) * p_1_1f_y);
+  const Real p_1_1n_z = Real(0.34) * p_1_1f_y - (Real(0.02) * p_1_1f_x - q1r0_x * Real(2.607));
   const Real t385 = q1r1_x * Real(0.1216) + q1r2_x * Real(2.0672);
-  const Real p_2_1n_z = q1r0_z * Real(0.1824) - (q1r0_y * Real(2.8728) + t385);
-  const Real p_3_1n_z = q1r0_y * Real(0.1824) - (q1r0_z * Real(1.0342) - t385 * Real(0.1875));
-  M[0][0] = (q1r1_x * q1r1_x + q1r2_x * q1r2_x) * Real(0.6499999999999999) - (q1r1_y * S1at1r0_y - (q1r1_z *
-      S1at1r0_z - (h1at1_x * Real(0.68) + (q1r2_y * S1at1r1_y - (q1r2_z * S1at1r1_z - (h1at1_y * Real(0.04) -
-      (t332 * (t324 * Real(0.1824) + (p_2_1n_z + (p_2_1n_z + t332 * Real(2.8728)))) + (t324 * (t324 *
-      Real(1.0342) - (p_3_1n_z + (p_3_1n_z - t332 * Real(0.1824)))) - t327 * (p_1_1n_z + (p_1_1n_z - t327 *
-      Real(2.607)))))))))) - Real(4.612500000000001));
+  const Real p_2_1n_z = t385 + (q1r0_y * Real(2.8728) - q1r0_z * Real(0.1824));
+  const Real p_3_1n_z = t385 * Real(0.1875) - (q1r0_z * Real(1.0342) - q1r0_y * Real(0.1824));
+  M[0][0] = t332 * (t332 * Real(2.8728) - (t324 * Real(0.1824) - (p_2_1n_z + p_2_1n_z))) - (t324 * (t332 *
+      Real(0.1824) - (t324 * Real(1.0342) - (p_3_1n_z + p_3_1n_z))) - (t327 * (t327 * Real(2.607) + (p_1_1n_z
+      + p_1_1n_z)) + ((q1r1_x * q1r1_x + q1r2_x * q1r2_x) * Real(0.6499999999999999) + Real(4.612500000000001)
+      - (q1r1_y * S1at1r0_y - q1r1_z * S1at1r0_z) - (q1r2_y * S1at1r1_y - q1r2_z * S1at1r1_z + (h1at1_x *
+      Real(0.68) + h1at1_y * Real(0.04))))));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -549,11 +549,11 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noe
   const Real q1r2_x = q113 - q102;
   const Real q1r2_y = q123 + q101;
   const Real q1r2_z = q122 + t26;
-  const Real strutax1p_x = q1r1_x * Real(0.01) - (q1r1_z * Real(0.2) + q1r1_y * Real(0.03)) - Real(0.34);
-  const Real strutax1p_y = q1r2_x * Real(0.01) + (q1r2_z * Real(0.2) + q1r2_y * Real(0.03) + Real(0.02));
+  const Real strutax1p_x = q1r1_x * Real(0.01) - Real(0.34) - (q1r1_z * Real(0.2) + q1r1_y * Real(0.03));
+  const Real strutax1p_y = q1r2_x * Real(0.01) + Real(0.02) + (q1r2_z * Real(0.2) + q1r2_y * Real(0.03));
   const Real strutax1_x = c0 * strutax1p_x - s0 * strutax1p_y;
   const Real strutax1_y = c0 * strutax1p_y + s0 * strutax1p_x;
-  const Real strutd_x = q1r0_x * Real(0.01) + (q1r0_z * Real(0.2) - q1r0_y * Real(0.03)) + Real(0.04);
+  const Real strutd_x = q1r0_z * Real(0.2) + Real(0.04) + (q1r0_x * Real(0.01) - q1r0_y * Real(0.03));
   const Real strutd_y = strutax1_x + Real(0.22999999999999998);
   const Real strutd_z = strutax1_y + Real(0.5800000000000001);
   const Real strutad1p_x = q1r1_y * Real(0.35112344158839165) + q1r1_x * Real(0.9363291775690445);
@@ -561,101 +561,100 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noe
   const Real strutad1p_z = q1r0_y * Real(0.35112344158839165) + q1r0_x * Real(0.9363291775690445);
   const Real strutad1_x = c0 * strutad1p_x + s0 * strutad1p_y;
   const Real strutad1_y = c0 * strutad1p_y - s0 * strutad1p_x;
-  const Real strutad1p_x_2 = q1r1_z * Real(0.2088879845220991) + (q1r1_x * Real(0.3433775088034506) - q1r1_y *
-      Real(0.9156733568092016));
+  const Real strutad1p_x_2 = q1r1_y * Real(0.9156733568092016) - (q1r1_x * Real(0.3433775088034506) + q1r1_z *
+      Real(0.2088879845220991));
   const Real strutad1p_y_2 = q1r2_z * Real(0.2088879845220991) - (q1r2_x * Real(0.3433775088034506) + q1r2_y *
       Real(0.9156733568092016));
-  const Real strutad1p_z_2 = q1r0_z * Real(0.2088879845220991) - (q1r0_x * Real(0.3433775088034506) - q1r0_y *
+  const Real strutad1p_z_2 = q1r0_x * Real(0.3433775088034506) - (q1r0_z * Real(0.2088879845220991) + q1r0_y *
       Real(0.9156733568092016));
-  const Real strutad1_x_2 = c0 * strutad1p_x_2 + s0 * strutad1p_y_2;
-  const Real strutad1_y_2 = c0 * strutad1p_y_2 - s0 * strutad1p_x_2;
+  const Real strutad1_x_2 = c0 * strutad1p_x_2 - s0 * strutad1p_y_2;
+  const Real strutad1_y_2 = c0 * strutad1p_y_2 + s0 * strutad1p_x_2;
   const detail::Angle<Real> expression = detail::Angle<Real>(state.t) * model.rate;
   Real s, c;
   detail::sine_cosine(expression, s, c);
   const Real expression_2 = Real(1.0) - c;
   const Real expression_3 = expression_2 * model.c1;
-  const Real tie_rodbx1p_x = q1r1_x * Real(0.14) - (Real(0.34) + (q1r1_z * Real(0.07) + q1r1_y * Real(0.02)));
-  const Real tie_rodbx1p_y = q1r2_x * Real(0.14) + (Real(0.02) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02)));
-  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x - s0 * tie_rodbx1p_y;
-  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y + s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_y * Real(0.02) - (q1r0_x * Real(0.14) + q1r0_z * Real(0.07)) - Real(0.14);
-  const Real tie_rodd_y = expression_3 + tie_rodbx1_x;
+  const Real tie_rodbx1p_x = Real(0.34) - q1r1_x * Real(0.14) + (q1r1_z * Real(0.07) + q1r1_y * Real(0.02));
+  const Real tie_rodbx1p_y = Real(0.02) + q1r2_x * Real(0.14) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02));
+  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
+  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
+  const Real tie_rodd_x = q1r0_z * Real(0.07) + Real(0.14) + (q1r0_x * Real(0.14) - q1r0_y * Real(0.02));
+  const Real tie_rodd_y = expression_3 - tie_rodbx1_x;
   const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
   const Real struts0an0_z = strutd_y * strutad1_y + strutd_z * strutad1_x;
-  const Real struts0am_z = strutax1_x * strutad1_y - (struts0an0_z - strutax1_y * strutad1_x);
+  const Real struts0am_z = struts0an0_z - (strutax1_x * strutad1_y + strutax1_y * strutad1_x);
   const Real struts0af1_y = q1r1_y * strutad1p_x + (q1r0_y * strutad1p_z + q1r2_y * strutad1p_y);
   const Real struts0af1_z = q1r1_z * strutad1p_x - (q1r0_z * strutad1p_z - q1r2_z * strutad1p_y);
   const Real struts0an0_x = strutd_x * strutad1_y + strutd_z * strutad1p_z;
   const Real struts0an0_y = strutd_x * strutad1_x - strutd_y * strutad1p_z;
   const Real struts0an1p_x = c0 * struts0an0_x + s0 * struts0an0_y;
   const Real struts0an1p_y = c0 * struts0an0_y - s0 * struts0an0_x;
-  const Real struts0am_x = q1r1_x * struts0an1p_x - (q1r0_x * struts0an0_z - (q1r2_x * struts0an1p_y -
+  const Real struts0am_x = q1r2_x * struts0an1p_y + (q1r1_x * struts0an1p_x - (q1r0_x * struts0an0_z +
       (Real(0.2) * struts0af1_y - Real(0.03) * struts0af1_z)));
   const Real struts0af1_x = q1r1_x * strutad1p_x + (q1r0_x * strutad1p_z - q1r2_x * strutad1p_y);
-  const Real struts0am_y = q1r1_y * struts0an1p_x - (q1r0_y * struts0an0_z + (q1r2_y * struts0an1p_y -
+  const Real struts0am_y = q1r2_y * struts0an1p_y - (q1r1_y * struts0an1p_x - (q1r0_y * struts0an0_z -
       (Real(0.01) * struts0af1_z + Real(0.2) * struts0af1_x)));
-  const Real struts0am_z_2 = q1r1_z * struts0an1p_x + (q1r0_z * struts0an0_z - (q1r2_z * struts0an1p_y +
+  const Real struts0am_z_2 = q1r2_z * struts0an1p_y - (q1r1_z * struts0an1p_x + (q1r0_z * struts0an0_z -
       (Real(0.01) * struts0af1_y + Real(0.03) * struts0af1_x)));
-  const Real struts1an0_z = strutd_y * strutad1_y_2 + strutd_z * strutad1_x_2;
-  const Real struts1af1_y = q1r1_y * strutad1p_x_2 - (q1r0_y * strutad1p_z_2 - q1r2_y * strutad1p_y_2);
-  const Real struts1af1_z = q1r1_z * strutad1p_x_2 + (q1r0_z * strutad1p_z_2 + q1r2_z * strutad1p_y_2);
-  const Real struts1an0_x = strutd_x * strutad1_y_2 - strutd_z * strutad1p_z_2;
+  const Real struts1an0_z = strutd_y * strutad1_y_2 - strutd_z * strutad1_x_2;
+  const Real struts1af1_y = q1r2_y * strutad1p_y_2 + (q1r0_y * strutad1p_z_2 - q1r1_y * strutad1p_x_2);
+  const Real struts1af1_z = q1r2_z * strutad1p_y_2 - (q1r0_z * strutad1p_z_2 + q1r1_z * strutad1p_x_2);
+  const Real struts1an0_x = strutd_x * strutad1_y_2 + strutd_z * strutad1p_z_2;
   const Real struts1an0_y = strutd_x * strutad1_x_2 + strutd_y * strutad1p_z_2;
-  const Real struts1an1p_x = c0 * struts1an0_x + s0 * struts1an0_y;
-  const Real struts1an1p_y = c0 * struts1an0_y - s0 * struts1an0_x;
-  const Real struts1af1_x = q1r1_x * strutad1p_x_2 - (q1r0_x * strutad1p_z_2 + q1r2_x * strutad1p_y_2);
-  const Real struts1am_y = q1r1_y * struts1an1p_x - (q1r0_y * struts1an0_z + (q1r2_y * struts1an1p_y -
-      (Real(0.01) * struts1af1_z + Real(0.2) * struts1af1_x)));
+  const Real struts1an1p_x = c0 * struts1an0_x - s0 * struts1an0_y;
+  const Real struts1an1p_y = c0 * struts1an0_y + s0 * struts1an0_x;
+  const Real struts1af1_x = q1r2_x * strutad1p_y_2 - (q1r0_x * strutad1p_z_2 - q1r1_x * strutad1p_x_2);
+  const Real struts1am_y = q1r2_y * struts1an1p_y + (q1r1_y * struts1an1p_x - (q1r0_y * struts1an0_z -
+      (Real(0.01) * struts1af1_z - Real(0.2) * struts1af1_x)));
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
   const Real tie_rods0bf0_y = tie_rodd_z * Real(3.123475237772121);
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
   const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x + s0 * tie_rods0bf0_y;
   const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y - s0 * tie_rods0bf0_x;
-  const Real tie_rods0bf1_y = q1r1_y * tie_rods0bf1p_x - (q1r0_y * tie_rods0bf0_z + q1r2_y * tie_rods0bf1p_y);
-  const Real tie_rods0bf1_z = q1r1_z * tie_rods0bf1p_x + (q1r0_z * tie_rods0bf0_z - q1r2_z * tie_rods0bf1p_y);
-  const Real tie_rods0bf1_x = q1r1_x * tie_rods0bf1p_x - (q1r0_x * tie_rods0bf0_z - q1r2_x * tie_rods0bf1p_y);
-  const Real tie_rods0bm_y = Real(0.14) * tie_rods0bf1_z + Real(0.07) * tie_rods0bf1_x;
+  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y - (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y + (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y + (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
+  const Real tie_rods0bm_y = Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x;
   const Real derivative = s * model.c2;
-  const Real tie_rods0at = tie_rods0bf0_x * derivative;
-  const Real t294 = Real(1.0) / struts0am_y;
-  const Real t295 = struts1am_y * t294;
-  const Real t307 = q1r1_z * struts1an1p_x + (q1r0_z * struts1an0_z - (q1r2_z * struts1an1p_y + (Real(0.01) *
-      struts1af1_y + (Real(0.03) * struts1af1_x + struts0am_z_2 * t295))));
-  const Real t308 = tie_rods0bm_y * t294;
-  const Real t313 = Real(1.0) / (q1r1_x * struts1an1p_x - (q1r0_x * struts1an0_z - (q1r2_x * struts1an1p_y -
-      (Real(0.2) * struts1af1_y - (Real(0.03) * struts1af1_z - struts0am_x * t295)))));
-  const Real t314 = (Real(0.02) * tie_rods0bf1_z - (Real(0.07) * tie_rods0bf1_y + struts0am_x * t308)) * t313;
-  const Real t319 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (struts0am_z_2 *
-      t308 + t307 * t314)));
-  const Real t323 = strutax1_x * strutad1_y_2 - (struts1an0_z - (strutax1_y * strutad1_x_2 - struts0am_z *
-      t295));
-  const Real t329 = t319 * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y + (struts0am_z *
-      t308 + t314 * t323)));
-  const Real t332 = t313 * (t323 + t307 * t329);
-  const Real t337 = t294 * (struts0am_x * t332 - (struts0am_z + struts0am_z_2 * t329));
-  const Real t342 = tie_rods0at * t319;
-  const Real t344 = t313 * (t307 * t342);
-  const Real t349 = t332 * state.z[0] - t344;
-  const Real t350 = t337 * state.z[0] - t294 * (struts0am_x * t344 - struts0am_z_2 * t342);
-  const Real t351 = t329 * state.z[0] - t342;
-  const Real strutam1t_x = Real(0.2) * t350 - Real(0.03) * t351;
+  const Real t293 = Real(1.0) / struts0am_y;
+  const Real t294 = struts1am_y * t293;
+  const Real t306 = struts0am_z_2 * t294 - (q1r2_z * struts1an1p_y + (q1r1_z * struts1an1p_x + (q1r0_z *
+      struts1an0_z - (Real(0.01) * struts1af1_y - Real(0.03) * struts1af1_x))));
+  const Real t307 = tie_rods0bm_y * t293;
+  const Real t312 = Real(1.0) / (struts0am_x * t294 - (q1r2_x * struts1an1p_y - (q1r1_x * struts1an1p_x -
+      (q1r0_x * struts1an0_z + (Real(0.2) * struts1af1_y - Real(0.03) * struts1af1_z)))));
+  const Real t313 = (struts0am_x * t307 - (Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z)) * t312;
+  const Real t318 = Real(1.0) / (t306 * t313 - (struts0am_z_2 * t307 + (Real(0.14) * tie_rods0bf1_y -
+      Real(0.02) * tie_rods0bf1_x)));
+  const Real t322 = struts0am_z * t294 + (struts1an0_z - (strutax1_x * strutad1_y_2 - strutax1_y *
+      strutad1_x_2));
+  const Real t328 = t318 * (t313 * t322 - (struts0am_z * t307 + (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y
+      * tie_rods0bf0_x)));
+  const Real t331 = t312 * (t322 - t306 * t328);
+  const Real t336 = t293 * (struts0am_x * t331 - (struts0am_z - struts0am_z_2 * t328));
+  const Real t342 = t318 * (tie_rods0bf0_x * derivative);
+  const Real t344 = t342 * (t306 * t312);
+  const Real t349 = t331 * state.z[0] - t344;
+  const Real t350 = t336 * state.z[0] - t293 * (struts0am_x * t344 - struts0am_z_2 * t342);
+  const Real t351 = t328 * state.z[0] + t342;
+  const Real strutam1t_x = Real(0.2) * t350 + Real(0.03) * t351;
   const Real strutam1t_y = Real(0.01) * t351 - Real(0.2) * t349;
-  const Real strutam1t_z = Real(0.01) * t350 - Real(0.03) * t349;
-  const Real strutam1vpp_x = q1r1_y * strutam1t_y - (q1r1_x * strutam1t_x + q1r1_z * strutam1t_z);
-  const Real strutam1vpp_y = q1r2_y * strutam1t_y + (q1r2_x * strutam1t_x - q1r2_z * strutam1t_z);
-  const Real strutam1vpp_z = q1r0_y * strutam1t_y - (q1r0_x * strutam1t_x - q1r0_z * strutam1t_z);
+  const Real strutam1t_z = Real(0.01) * t350 + Real(0.03) * t349;
+  const Real strutam1vpp_x = q1r1_z * strutam1t_z + (q1r1_x * strutam1t_x + q1r1_y * strutam1t_y);
+  const Real strutam1vpp_y = q1r2_z * strutam1t_z - (q1r2_x * strutam1t_x - q1r2_y * strutam1t_y);
+  const Real strutam1vpp_z = q1r0_z * strutam1t_z - (q1r0_x * strutam1t_x + q1r0_y * strutam1t_y);
   const Real strutam1vp_x = c0 * strutam1vpp_x + s0 * strutam1vpp_y;
   const Real strutam1vp_y = c0 * strutam1vpp_y - s0 * strutam1vpp_x;
   const Real strutam0t_x = strutax1_y * state.z[0];
   const Real strutam0t_y = strutax1_x * state.z[0];
-  const Real strutam0v_x = strutam1vp_x - strutam0t_x;
-  const Real strutam0v_y = strutam1vp_y - strutam0t_y;
+  const Real strutam0v_x = strutam1vp_x + strutam0t_x;
+  const Real strutam0v_y = strutam1vp_y + strutam0t_y;
   const Real strutad1t_x = Real(0.35112344158839165) * t351;
   const Real strutad1t_y = Real(0.9363291775690445) * t351;
-  const Real strutad1t_z = Real(0.35112344158839165) * t349 + Real(0.9363291775690445) * t350;
-  const Real strutad1vpp_x = q1r1_y * strutad1t_y - (q1r1_x * strutad1t_x + q1r1_z * strutad1t_z);
-  const Real strutad1vpp_y = q1r2_y * strutad1t_y + (q1r2_x * strutad1t_x - q1r2_z * strutad1t_z);
-  const Real strutad1vpp_z = q1r0_y * strutad1t_y - (q1r0_x * strutad1t_x - q1r0_z * strutad1t_z);
+  const Real strutad1t_z = Real(0.35112344158839165) * t349 - Real(0.9363291775690445) * t350;
+  const Real strutad1vpp_x = q1r1_z * strutad1t_z + (q1r1_x * strutad1t_x - q1r1_y * strutad1t_y);
+  const Real strutad1vpp_y = q1r2_z * strutad1t_z - (q1r2_x * strutad1t_x + q1r2_y * strutad1t_y);
+  const Real strutad1vpp_z = q1r0_z * strutad1t_z - (q1r0_x * strutad1t_x - q1r0_y * strutad1t_y);
   const Real strutad1vp_x = c0 * strutad1vpp_x + s0 * strutad1vpp_y;
   const Real strutad1vp_y = c0 * strutad1vpp_y - s0 * strutad1vpp_x;
   const Real strutad0t_x = strutad1_y * state.z[0];
@@ -665,81 +664,81 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noe
   const Real strutam1a_x = t350 * strutam1t_z + t351 * strutam1t_y;
   const Real strutam1a_y = t349 * strutam1t_z + t351 * strutam1t_x;
   const Real strutam1a_z = t349 * strutam1t_y - t350 * strutam1t_x;
-  const Real strutam1app_x = q1r1_y * strutam1a_y + (q1r1_x * strutam1a_x + q1r1_z * strutam1a_z);
-  const Real strutam1app_y = q1r2_y * strutam1a_y - (q1r2_x * strutam1a_x - q1r2_z * strutam1a_z);
-  const Real strutam1app_z = q1r0_y * strutam1a_y + (q1r0_x * strutam1a_x - q1r0_z * strutam1a_z);
+  const Real strutam1app_x = q1r1_z * strutam1a_z + (q1r1_x * strutam1a_x - q1r1_y * strutam1a_y);
+  const Real strutam1app_y = q1r2_z * strutam1a_z - (q1r2_x * strutam1a_x + q1r2_y * strutam1a_y);
+  const Real strutam1app_z = q1r0_z * strutam1a_z - (q1r0_x * strutam1a_x - q1r0_y * strutam1a_y);
   const Real strutam0b_x = strutam1vp_x + strutam0v_x;
   const Real strutam0b_y = strutam1vp_y + strutam0v_y;
-  const Real strutam0a_x = s0 * strutam1app_y + (c0 * strutam1app_x - state.z[0] * strutam0b_y);
-  const Real strutam0a_y = s0 * strutam1app_x - (c0 * strutam1app_y + state.z[0] * strutam0b_x);
-  const Real strutad1a_x = t350 * strutad1t_z + t351 * strutad1t_y;
+  const Real strutam0a_x = state.z[0] * strutam0b_y + (c0 * strutam1app_x + s0 * strutam1app_y);
+  const Real strutam0a_y = state.z[0] * strutam0b_x - (c0 * strutam1app_y - s0 * strutam1app_x);
+  const Real strutad1a_x = t350 * strutad1t_z - t351 * strutad1t_y;
   const Real strutad1a_y = t349 * strutad1t_z + t351 * strutad1t_x;
-  const Real strutad1a_z = t349 * strutad1t_y - t350 * strutad1t_x;
-  const Real strutad1app_x = q1r1_y * strutad1a_y + (q1r1_x * strutad1a_x + q1r1_z * strutad1a_z);
-  const Real strutad1app_y = q1r2_y * strutad1a_y - (q1r2_x * strutad1a_x - q1r2_z * strutad1a_z);
-  const Real strutad1app_z = q1r0_y * strutad1a_y + (q1r0_x * strutad1a_x - q1r0_z * strutad1a_z);
+  const Real strutad1a_z = t349 * strutad1t_y + t350 * strutad1t_x;
+  const Real strutad1app_x = q1r1_y * strutad1a_y - (q1r1_x * strutad1a_x - q1r1_z * strutad1a_z);
+  const Real strutad1app_y = q1r2_y * strutad1a_y + (q1r2_x * strutad1a_x + q1r2_z * strutad1a_z);
+  const Real strutad1app_z = q1r0_y * strutad1a_y - (q1r0_x * strutad1a_x + q1r0_z * strutad1a_z);
   const Real strutad0b_x = strutad1vp_x + strutad0v_x;
   const Real strutad0b_y = strutad1vp_y + strutad0v_y;
-  const Real strutad0a_x = s0 * strutad1app_y + (c0 * strutad1app_x - state.z[0] * strutad0b_y);
-  const Real strutad0a_y = s0 * strutad1app_x - (c0 * strutad1app_y + state.z[0] * strutad0b_x);
-  const Real bias_strut = strutad1_x * strutam0a_x + (strutad1p_z * strutam1app_z - (strutad1_y * strutam0a_y
-      - (strutd_x * strutad1app_z + (strutd_y * strutad0a_x + (strutd_z * strutad0a_y - Real(2.0) *
-      (strutam0v_x * strutad0v_x + (strutam1vpp_z * strutad1vpp_z + strutam0v_y * strutad0v_y)))))));
-  const Real strutad1t_x_2 = Real(0.2088879845220991) * t350 + Real(0.9156733568092016) * t351;
+  const Real strutad0a_x = state.z[0] * strutad0b_y - (c0 * strutad1app_x + s0 * strutad1app_y);
+  const Real strutad0a_y = state.z[0] * strutad0b_x + (c0 * strutad1app_y - s0 * strutad1app_x);
+  const Real bias_strut = strutad1_y * strutam0a_y - Real(2.0) * (strutam0v_y * strutad0v_y + (strutam1vpp_z *
+      strutad1vpp_z + strutam0v_x * strutad0v_x)) + (strutd_y * strutad0a_x + (strutad1p_z * strutam1app_z -
+      strutd_x * strutad1app_z) - (strutad1_x * strutam0a_x - strutd_z * strutad0a_y));
+  const Real strutad1t_x_2 = Real(0.2088879845220991) * t350 - Real(0.9156733568092016) * t351;
   const Real strutad1t_y_2 = Real(0.3433775088034506) * t351 + Real(0.2088879845220991) * t349;
-  const Real strutad1t_z_2 = Real(0.3433775088034506) * t350 - Real(0.9156733568092016) * t349;
-  const Real strutad1vpp_x_2 = q1r1_y * strutad1t_y_2 + (q1r1_x * strutad1t_x_2 - q1r1_z * strutad1t_z_2);
-  const Real strutad1vpp_y_2 = q1r2_y * strutad1t_y_2 - (q1r2_x * strutad1t_x_2 + q1r2_z * strutad1t_z_2);
-  const Real strutad1vpp_z_2 = q1r0_y * strutad1t_y_2 + (q1r0_x * strutad1t_x_2 + q1r0_z * strutad1t_z_2);
+  const Real strutad1t_z_2 = Real(0.3433775088034506) * t350 + Real(0.9156733568092016) * t349;
+  const Real strutad1vpp_x_2 = q1r1_z * strutad1t_z_2 - (q1r1_x * strutad1t_x_2 - q1r1_y * strutad1t_y_2);
+  const Real strutad1vpp_y_2 = q1r2_z * strutad1t_z_2 + (q1r2_x * strutad1t_x_2 + q1r2_y * strutad1t_y_2);
+  const Real strutad1vpp_z_2 = q1r0_z * strutad1t_z_2 + (q1r0_x * strutad1t_x_2 - q1r0_y * strutad1t_y_2);
   const Real strutad1vp_x_2 = c0 * strutad1vpp_x_2 + s0 * strutad1vpp_y_2;
   const Real strutad1vp_y_2 = c0 * strutad1vpp_y_2 - s0 * strutad1vpp_x_2;
   const Real strutad0t_x_2 = strutad1_y_2 * state.z[0];
   const Real strutad0t_y_2 = strutad1_x_2 * state.z[0];
-  const Real strutad0v_x_2 = strutad1vp_x_2 + strutad0t_x_2;
+  const Real strutad0v_x_2 = strutad1vp_x_2 - strutad0t_x_2;
   const Real strutad0v_y_2 = strutad1vp_y_2 - strutad0t_y_2;
   const Real strutad1a_x_2 = t350 * strutad1t_z_2 + t351 * strutad1t_y_2;
   const Real strutad1a_y_2 = t349 * strutad1t_z_2 - t351 * strutad1t_x_2;
   const Real strutad1a_z_2 = t349 * strutad1t_y_2 + t350 * strutad1t_x_2;
-  const Real strutad1app_x_2 = q1r1_y * strutad1a_y_2 + (q1r1_x * strutad1a_x_2 + q1r1_z * strutad1a_z_2);
-  const Real strutad1app_y_2 = q1r2_y * strutad1a_y_2 - (q1r2_x * strutad1a_x_2 - q1r2_z * strutad1a_z_2);
-  const Real strutad1app_z_2 = q1r0_y * strutad1a_y_2 + (q1r0_x * strutad1a_x_2 - q1r0_z * strutad1a_z_2);
+  const Real strutad1app_x_2 = q1r1_z * strutad1a_z_2 + (q1r1_x * strutad1a_x_2 - q1r1_y * strutad1a_y_2);
+  const Real strutad1app_y_2 = q1r2_z * strutad1a_z_2 - (q1r2_x * strutad1a_x_2 + q1r2_y * strutad1a_y_2);
+  const Real strutad1app_z_2 = q1r0_z * strutad1a_z_2 - (q1r0_x * strutad1a_x_2 - q1r0_y * strutad1a_y_2);
   const Real strutad0b_x_2 = strutad1vp_x_2 + strutad0v_x_2;
   const Real strutad0b_y_2 = strutad1vp_y_2 + strutad0v_y_2;
-  const Real strutad0a_x_2 = s0 * strutad1app_y_2 + (c0 * strutad1app_x_2 - state.z[0] * strutad0b_y_2);
-  const Real strutad0a_y_2 = s0 * strutad1app_x_2 - (c0 * strutad1app_y_2 + state.z[0] * strutad0b_x_2);
-  const Real tie_rodbm1t_x = Real(0.07) * t350 - Real(0.02) * t351;
+  const Real strutad0a_x_2 = state.z[0] * strutad0b_y_2 + (c0 * strutad1app_x_2 + s0 * strutad1app_y_2);
+  const Real strutad0a_y_2 = state.z[0] * strutad0b_x_2 - (c0 * strutad1app_y_2 - s0 * strutad1app_x_2);
+  const Real tie_rodbm1t_x = Real(0.07) * t350 + Real(0.02) * t351;
   const Real tie_rodbm1t_y = Real(0.14) * t351 - Real(0.07) * t349;
-  const Real tie_rodbm1t_z = Real(0.14) * t350 - Real(0.02) * t349;
-  const Real tie_rodbm1vpp_x = q1r1_y * tie_rodbm1t_y - (q1r1_x * tie_rodbm1t_x + q1r1_z * tie_rodbm1t_z);
-  const Real tie_rodbm1vpp_y = q1r2_y * tie_rodbm1t_y + (q1r2_x * tie_rodbm1t_x - q1r2_z * tie_rodbm1t_z);
-  const Real tie_rodbm1vpp_z = q1r0_y * tie_rodbm1t_y - (q1r0_x * tie_rodbm1t_x - q1r0_z * tie_rodbm1t_z);
+  const Real tie_rodbm1t_z = Real(0.14) * t350 + Real(0.02) * t349;
+  const Real tie_rodbm1vpp_x = q1r1_z * tie_rodbm1t_z + (q1r1_x * tie_rodbm1t_x + q1r1_y * tie_rodbm1t_y);
+  const Real tie_rodbm1vpp_y = q1r2_z * tie_rodbm1t_z - (q1r2_x * tie_rodbm1t_x - q1r2_y * tie_rodbm1t_y);
+  const Real tie_rodbm1vpp_z = q1r0_z * tie_rodbm1t_z - (q1r0_x * tie_rodbm1t_x + q1r0_y * tie_rodbm1t_y);
   const Real tie_rodbm1vp_x = c0 * tie_rodbm1vpp_x + s0 * tie_rodbm1vpp_y;
   const Real tie_rodbm1vp_y = c0 * tie_rodbm1vpp_y - s0 * tie_rodbm1vpp_x;
   const Real tie_rodbm0t_x = tie_rodbx1_y * state.z[0];
   const Real tie_rodbm0t_y = tie_rodbx1_x * state.z[0];
   const Real tie_rodbm0v_y = tie_rodbm1vp_y - tie_rodbm0t_y;
-  const Real tie_roddv_y = tie_rodbm1vp_x + (derivative - tie_rodbm0t_x);
+  const Real tie_roddv_y = tie_rodbm1vp_x - (derivative - tie_rodbm0t_x);
   const Real derivative_2 = c * model.c3;
   const Real tie_rodbm1a_x = t350 * tie_rodbm1t_z + t351 * tie_rodbm1t_y;
   const Real tie_rodbm1a_y = t349 * tie_rodbm1t_z + t351 * tie_rodbm1t_x;
   const Real tie_rodbm1a_z = t349 * tie_rodbm1t_y - t350 * tie_rodbm1t_x;
-  const Real tie_rodbm1app_x = q1r1_y * tie_rodbm1a_y + (q1r1_x * tie_rodbm1a_x + q1r1_z * tie_rodbm1a_z);
-  const Real tie_rodbm1app_y = q1r2_y * tie_rodbm1a_y - (q1r2_x * tie_rodbm1a_x - q1r2_z * tie_rodbm1a_z);
-  const Real tie_rodbm1app_z = q1r0_y * tie_rodbm1a_y + (q1r0_x * tie_rodbm1a_x - q1r0_z * tie_rodbm1a_z);
-  const Real tie_rodbm0b_x = tie_rodbm0t_x - Real(2.0) * tie_rodbm1vp_x;
+  const Real tie_rodbm1app_x = q1r1_z * tie_rodbm1a_z + (q1r1_x * tie_rodbm1a_x - q1r1_y * tie_rodbm1a_y);
+  const Real tie_rodbm1app_y = q1r2_z * tie_rodbm1a_z - (q1r2_x * tie_rodbm1a_x + q1r2_y * tie_rodbm1a_y);
+  const Real tie_rodbm1app_z = q1r0_z * tie_rodbm1a_z - (q1r0_x * tie_rodbm1a_x - q1r0_y * tie_rodbm1a_y);
+  const Real tie_rodbm0b_x = tie_rodbm0t_x + Real(2.0) * tie_rodbm1vp_x;
   const Real tie_rodbm0b_y = tie_rodbm1vp_y + tie_rodbm0v_y;
-  const Real tie_rodbm0a_y = s0 * tie_rodbm1app_x - (c0 * tie_rodbm1app_y - state.z[0] * tie_rodbm0b_x);
-  const Real tie_rodda_y = c0 * tie_rodbm1app_x - (derivative_2 - (s0 * tie_rodbm1app_y - state.z[0] *
-      tie_rodbm0b_y));
-  const Real t676 = strutad1_x_2 * strutam0a_x - (strutad1p_z_2 * strutam1app_z + (strutad1_y_2 * strutam0a_y
-      - (strutd_x * strutad1app_z_2 + (strutd_y * strutad0a_x_2 + (strutd_z * strutad0a_y_2 - (t295 *
-      bias_strut + Real(2.0) * (strutam0v_x * strutad0v_x_2 + (strutam1vpp_z * strutad1vpp_z_2 + strutam0v_y *
-      strutad0v_y_2))))))));
-  const Real t687 = t319 * (t314 * t676 + (t308 * bias_strut + Real(3.123475237772121) * (tie_rodbm0v_y *
-      tie_rodbm0v_y + (tie_rodbm1vpp_z * tie_rodbm1vpp_z + (tie_roddv_y * tie_roddv_y + (tie_rodd_x *
-      tie_rodbm1app_z - (tie_rodd_z * tie_rodbm0a_y + tie_rodd_y * tie_rodda_y)))))));
-  const Real t690 = t313 * (t676 - t307 * t687);
-  const Real t695 = t294 * (struts0am_x * t690 - (bias_strut - struts0am_z_2 * t687));
+  const Real tie_rodbm0a_y = state.z[0] * tie_rodbm0b_x - (c0 * tie_rodbm1app_y - s0 * tie_rodbm1app_x);
+  const Real tie_rodda_y = state.z[0] * tie_rodbm0b_y + (s0 * tie_rodbm1app_y - (derivative_2 - c0 *
+      tie_rodbm1app_x));
+  const Real t676 = t294 * bias_strut - (strutd_z * strutad0a_y_2 - Real(2.0) * (strutam0v_y * strutad0v_y_2 +
+      (strutam1vpp_z * strutad1vpp_z_2 + strutam0v_x * strutad0v_x_2)) - (strutad1_x_2 * strutam0a_x +
+      (strutad1p_z_2 * strutam1app_z + strutd_x * strutad1app_z_2) + (strutad1_y_2 * strutam0a_y - strutd_y *
+      strutad0a_x_2)));
+  const Real t687 = t318 * (t313 * t676 - (t307 * bias_strut + Real(3.123475237772121) * (tie_rodd_y *
+      tie_rodda_y + (tie_rodd_z * tie_rodbm0a_y - (tie_rodbm1vpp_z * tie_rodbm1vpp_z + tie_rodd_x *
+      tie_rodbm1app_z + (tie_rodbm0v_y * tie_rodbm0v_y + tie_roddv_y * tie_roddv_y))))));
+  const Real t690 = t312 * (t676 - t306 * t687);
+  const Real t695 = t293 * (struts0am_x * t690 - (bias_strut - struts0am_z_2 * t687));
   const Real w1p_x = q1r0_x * state.z[0];
   const Real w1p_y = q1r0_y * state.z[0];
   const Real w1p_z = q1r0_z * state.z[0];
@@ -752,35 +751,35 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noe
   const Real kK1_x = w1p_x * Real(0.6499999999999999);
   const Real kK1_y = w1p_z * Real(0.1824) + w1p_y * Real(0.3842000000000001);
   const Real kK1_z = w1p_z * Real(2.2228) + w1p_y * Real(0.1824);
-  const Real ku1_x = t349 - Real(2.0) * w1p_x;
+  const Real ku1_x = t349 + Real(2.0) * w1p_x;
   const Real ku1_y = t350 + Real(2.0) * w1p_y;
-  const Real ku1_z = t351 - Real(2.0) * w1p_z;
+  const Real ku1_z = t351 + Real(2.0) * w1p_z;
   const Real kSu1_x = Real(0.6499999999999999) * ku1_x;
-  const Real kSu1_y = Real(0.1824) * ku1_z - Real(0.3842000000000001) * ku1_y;
-  const Real kSu1_z = Real(2.2228) * ku1_z - Real(0.1824) * ku1_y;
-  const Real kuh1 = Real(1.14) * ku1_y - Real(6.08) * ku1_z;
+  const Real kSu1_y = Real(0.1824) * ku1_z + Real(0.3842000000000001) * ku1_y;
+  const Real kSu1_z = Real(2.2228) * ku1_z + Real(0.1824) * ku1_y;
+  const Real kuh1 = Real(1.14) * ku1_y + Real(6.08) * ku1_z;
   const Real kuw1 = t350 * ku1_y + (t349 * ku1_x + t351 * ku1_z);
   const Real kdf1_x = t349 * kuh1;
   const Real kdf1_y = Real(1.14) * kuw1 - t350 * kuh1;
-  const Real kdf1_z = Real(6.08) * kuw1 + t351 * kuh1;
-  const Real kdn1_x = t350 * kSu1_z + t351 * kSu1_y;
+  const Real kdf1_z = Real(6.08) * kuw1 - t351 * kuh1;
+  const Real kdn1_x = t350 * kSu1_z - t351 * kSu1_y;
   const Real kdn1_y = t349 * kSu1_z - t351 * kSu1_x;
-  const Real kdn1_z = t349 * kSu1_y + t350 * kSu1_x;
-  const Real kf1p_x = q1r1_y * kdf1_y + (q1r1_x * kdf1_x - q1r1_z * kdf1_z);
-  const Real kf1p_y = q1r2_y * kdf1_y - (q1r2_x * kdf1_x + q1r2_z * kdf1_z);
+  const Real kdn1_z = t349 * kSu1_y - t350 * kSu1_x;
+  const Real kf1p_x = q1r1_z * kdf1_z + (q1r1_x * kdf1_x - q1r1_y * kdf1_y);
+  const Real kf1p_y = q1r2_z * kdf1_z - (q1r2_x * kdf1_x + q1r2_y * kdf1_y);
   const Real p_1_1f_x = q1r1_z * Real(1.14) + q1r1_y * Real(6.08);
   const Real p_1_1f_y = q1r2_z * Real(1.14) + q1r2_y * Real(6.08);
   const Real p_1_1n_z = Real(0.34) * p_1_1f_y - (Real(0.02) * p_1_1f_x - q1r0_x * Real(2.607));
-  const Real p_2_1n_z = q1r2_x * Real(2.0672) + (q1r1_x * Real(0.1216) + (q1r0_y * Real(2.8728) - q1r0_z *
-      Real(0.1824)));
-  const Real p_3_1n_z = q1r2_x * Real(0.3876) + (q1r1_x * Real(0.0228) - (q1r0_z * Real(1.0342) - q1r0_y *
-      Real(0.1824)));
-  k[0] = q1r0_y * kdn1_y + (q1r0_x * kdn1_x - (q1r0_z * kdn1_z + (Real(0.02) * kf1p_x - (Real(0.34) * kf1p_y +
-      (t690 * p_1_1n_z - (t695 * p_2_1n_z - (t687 * p_3_1n_z + (t332 * (ka1_y * Real(6.08) + (ka1_z *
-      Real(1.14) + (w1p_y * kK1_z - (w1p_z * kK1_y + (kdn1_x + t690 * Real(2.607)))))) + (t337 * (w1p_x *
-      kK1_z + (ka1_x * Real(6.08) - (w1p_z * kK1_x - (kdn1_y - (t695 * Real(2.8728) - t687 * Real(0.1824))))))
-      + t329 * (w1p_x * kK1_y + (ka1_x * Real(1.14) - (w1p_y * kK1_x - (kdn1_z - (t695 * Real(0.1824) - t687 *
-      Real(1.0342)))))))))))))));
+  const Real p_2_1n_z = q1r1_x * Real(0.1216) + q1r2_x * Real(2.0672) + (q1r0_y * Real(2.8728) - q1r0_z *
+      Real(0.1824));
+  const Real p_3_1n_z = q1r1_x * Real(0.0228) + q1r2_x * Real(0.3876) - (q1r0_z * Real(1.0342) - q1r0_y *
+      Real(0.1824));
+  k[0] = t328 * (t695 * Real(0.1824) - (t687 * Real(1.0342) + (kdn1_z - (w1p_y * kK1_x - (ka1_x * Real(1.14) +
+      w1p_x * kK1_y))))) - (t336 * (t695 * Real(2.8728) - (t687 * Real(0.1824) + (kdn1_y - (w1p_z * kK1_x -
+      (ka1_x * Real(6.08) + w1p_x * kK1_z))))) + (t695 * p_2_1n_z + (t331 * (t690 * Real(2.607) + (kdn1_x +
+      (ka1_z * Real(1.14) + ka1_y * Real(6.08) + (w1p_y * kK1_z - w1p_z * kK1_y)))) + (t690 * p_1_1n_z - (t687
+      * p_3_1n_z - (Real(0.34) * kf1p_y - (Real(0.02) * kf1p_x - (q1r0_z * kdn1_z + (q1r0_x * kdn1_x - q1r0_y
+      * kdn1_y)))))))));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -811,12 +810,12 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real q1r2_y = q123 + q101;
   const Real q1r2_z = q122 + t26;
   const Real t35 = q1r1_x * Real(0.01) - Real(0.34);
-  const Real strutax1p_x = q1r1_z * Real(0.2) - (t35 - q1r1_y * Real(0.03));
+  const Real strutax1p_x = q1r1_y * Real(0.03) - (t35 - q1r1_z * Real(0.2));
   const Real t44 = q1r2_x * Real(0.01) + Real(0.02);
   const Real strutax1p_y = q1r2_z * Real(0.2) + (t44 + q1r2_y * Real(0.03));
   const Real strutax1_x = c0 * strutax1p_x + s0 * strutax1p_y;
   const Real strutax1_y = c0 * strutax1p_y - s0 * strutax1p_x;
-  const Real strutd_x = q1r0_x * Real(0.01) + (q1r0_z * Real(0.2) - q1r0_y * Real(0.03)) + Real(0.04);
+  const Real strutd_x = q1r0_z * Real(0.2) + Real(0.04) + (q1r0_x * Real(0.01) - q1r0_y * Real(0.03));
   const Real strutd_y = strutax1_x - Real(0.22999999999999998);
   const Real strutd_z = strutax1_y + Real(0.5800000000000001);
   const Real strutad1p_x = q1r1_y * Real(0.35112344158839165) + q1r1_x * Real(0.9363291775690445);
@@ -824,117 +823,117 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real strutad1p_z = q1r0_y * Real(0.35112344158839165) + q1r0_x * Real(0.9363291775690445);
   const Real strutad1_x = c0 * strutad1p_x + s0 * strutad1p_y;
   const Real strutad1_y = c0 * strutad1p_y - s0 * strutad1p_x;
-  const Real strutad1p_x_2 = q1r1_z * Real(0.2088879845220991) + (q1r1_x * Real(0.3433775088034506) - q1r1_y *
-      Real(0.9156733568092016));
+  const Real strutad1p_x_2 = q1r1_y * Real(0.9156733568092016) - (q1r1_x * Real(0.3433775088034506) + q1r1_z *
+      Real(0.2088879845220991));
   const Real strutad1p_y_2 = q1r2_z * Real(0.2088879845220991) - (q1r2_x * Real(0.3433775088034506) + q1r2_y *
       Real(0.9156733568092016));
-  const Real strutad1p_z_2 = q1r0_z * Real(0.2088879845220991) - (q1r0_x * Real(0.3433775088034506) - q1r0_y *
+  const Real strutad1p_z_2 = q1r0_x * Real(0.3433775088034506) - (q1r0_z * Real(0.2088879845220991) + q1r0_y *
       Real(0.9156733568092016));
-  const Real strutad1_x_2 = c0 * strutad1p_x_2 + s0 * strutad1p_y_2;
-  const Real strutad1_y_2 = c0 * strutad1p_y_2 - s0 * strutad1p_x_2;
+  const Real strutad1_x_2 = c0 * strutad1p_x_2 - s0 * strutad1p_y_2;
+  const Real strutad1_y_2 = c0 * strutad1p_y_2 + s0 * strutad1p_x_2;
   const detail::Angle<Real> expression = detail::Angle<Real>(state.t) * model.rate;
   Real s, c;
   detail::sine_cosine(expression, s, c);
   const Real expression_2 = Real(1.0) - c;
   const Real expression_3 = expression_2 * model.c1;
-  const Real tie_rodbx1p_x = q1r1_x * Real(0.14) - (Real(0.34) + (q1r1_z * Real(0.07) + q1r1_y * Real(0.02)));
-  const Real tie_rodbx1p_y = q1r2_x * Real(0.14) + (Real(0.02) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02)));
-  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x - s0 * tie_rodbx1p_y;
-  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y + s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_y * Real(0.02) - (q1r0_x * Real(0.14) + q1r0_z * Real(0.07)) - Real(0.14);
-  const Real tie_rodd_y = expression_3 + tie_rodbx1_x;
+  const Real tie_rodbx1p_x = Real(0.34) - q1r1_x * Real(0.14) + (q1r1_z * Real(0.07) + q1r1_y * Real(0.02));
+  const Real tie_rodbx1p_y = Real(0.02) + q1r2_x * Real(0.14) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02));
+  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
+  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
+  const Real tie_rodd_x = q1r0_z * Real(0.07) + Real(0.14) + (q1r0_x * Real(0.14) - q1r0_y * Real(0.02));
+  const Real tie_rodd_y = expression_3 - tie_rodbx1_x;
   const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
   const Real struts0an0_z = strutd_y * strutad1_y - strutd_z * strutad1_x;
-  const Real struts0am_z = strutax1_x * strutad1_y - (struts0an0_z + strutax1_y * strutad1_x);
+  const Real struts0am_z = struts0an0_z - (strutax1_x * strutad1_y - strutax1_y * strutad1_x);
   const Real struts0af1_y = q1r1_y * strutad1p_x + (q1r0_y * strutad1p_z + q1r2_y * strutad1p_y);
   const Real struts0af1_z = q1r1_z * strutad1p_x - (q1r0_z * strutad1p_z - q1r2_z * strutad1p_y);
   const Real struts0an0_x = strutd_x * strutad1_y + strutd_z * strutad1p_z;
   const Real struts0an0_y = strutd_x * strutad1_x + strutd_y * strutad1p_z;
   const Real struts0an1p_x = c0 * struts0an0_x + s0 * struts0an0_y;
   const Real struts0an1p_y = c0 * struts0an0_y - s0 * struts0an0_x;
-  const Real struts0am_x = q1r1_x * struts0an1p_x + (q1r0_x * struts0an0_z + (q1r2_x * struts0an1p_y -
+  const Real struts0am_x = q1r2_x * struts0an1p_y + (q1r1_x * struts0an1p_x + (q1r0_x * struts0an0_z -
       (Real(0.2) * struts0af1_y - Real(0.03) * struts0af1_z)));
   const Real struts0af1_x = q1r1_x * strutad1p_x + (q1r0_x * strutad1p_z - q1r2_x * strutad1p_y);
-  const Real struts0am_y = q1r1_y * struts0an1p_x + (q1r0_y * struts0an0_z - (q1r2_y * struts0an1p_y -
+  const Real struts0am_y = q1r2_y * struts0an1p_y - (q1r1_y * struts0an1p_x + (q1r0_y * struts0an0_z +
       (Real(0.01) * struts0af1_z + Real(0.2) * struts0af1_x)));
-  const Real struts0am_z_2 = q1r1_z * struts0an1p_x - (q1r0_z * struts0an0_z + (q1r2_z * struts0an1p_y +
+  const Real struts0am_z_2 = q1r2_z * struts0an1p_y - (q1r1_z * struts0an1p_x - (q1r0_z * struts0an0_z +
       (Real(0.01) * struts0af1_y + Real(0.03) * struts0af1_x)));
-  const Real struts1an0_z = strutd_y * strutad1_y_2 - strutd_z * strutad1_x_2;
-  const Real struts1af1_y = q1r1_y * strutad1p_x_2 - (q1r0_y * strutad1p_z_2 - q1r2_y * strutad1p_y_2);
-  const Real struts1af1_z = q1r1_z * strutad1p_x_2 + (q1r0_z * strutad1p_z_2 + q1r2_z * strutad1p_y_2);
-  const Real struts1an0_x = strutd_x * strutad1_y_2 - strutd_z * strutad1p_z_2;
+  const Real struts1an0_z = strutd_y * strutad1_y_2 + strutd_z * strutad1_x_2;
+  const Real struts1af1_y = q1r2_y * strutad1p_y_2 + (q1r0_y * strutad1p_z_2 - q1r1_y * strutad1p_x_2);
+  const Real struts1af1_z = q1r2_z * strutad1p_y_2 - (q1r0_z * strutad1p_z_2 + q1r1_z * strutad1p_x_2);
+  const Real struts1an0_x = strutd_x * strutad1_y_2 + strutd_z * strutad1p_z_2;
   const Real struts1an0_y = strutd_x * strutad1_x_2 - strutd_y * strutad1p_z_2;
-  const Real struts1an1p_x = c0 * struts1an0_x + s0 * struts1an0_y;
-  const Real struts1an1p_y = c0 * struts1an0_y - s0 * struts1an0_x;
-  const Real struts1af1_x = q1r1_x * strutad1p_x_2 - (q1r0_x * strutad1p_z_2 + q1r2_x * strutad1p_y_2);
-  const Real struts1am_y = q1r1_y * struts1an1p_x + (q1r0_y * struts1an0_z - (q1r2_y * struts1an1p_y -
-      (Real(0.01) * struts1af1_z + Real(0.2) * struts1af1_x)));
+  const Real struts1an1p_x = c0 * struts1an0_x - s0 * struts1an0_y;
+  const Real struts1an1p_y = c0 * struts1an0_y + s0 * struts1an0_x;
+  const Real struts1af1_x = q1r2_x * strutad1p_y_2 - (q1r0_x * strutad1p_z_2 - q1r1_x * strutad1p_x_2);
+  const Real struts1am_y = q1r2_y * struts1an1p_y + (q1r1_y * struts1an1p_x + (q1r0_y * struts1an0_z +
+      (Real(0.01) * struts1af1_z - Real(0.2) * struts1af1_x)));
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
   const Real tie_rods0bf0_y = tie_rodd_z * Real(3.123475237772121);
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
   const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x + s0 * tie_rods0bf0_y;
   const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y - s0 * tie_rods0bf0_x;
-  const Real tie_rods0bf1_y = q1r1_y * tie_rods0bf1p_x - (q1r0_y * tie_rods0bf0_z + q1r2_y * tie_rods0bf1p_y);
-  const Real tie_rods0bf1_z = q1r1_z * tie_rods0bf1p_x + (q1r0_z * tie_rods0bf0_z - q1r2_z * tie_rods0bf1p_y);
-  const Real tie_rods0bf1_x = q1r1_x * tie_rods0bf1p_x - (q1r0_x * tie_rods0bf0_z - q1r2_x * tie_rods0bf1p_y);
-  const Real tie_rods0bm_y = Real(0.14) * tie_rods0bf1_z + Real(0.07) * tie_rods0bf1_x;
-  const Real t292 = Real(1.0) / struts0am_y;
-  const Real t293 = struts1am_y * t292;
-  const Real t305 = q1r1_z * struts1an1p_x - (q1r0_z * struts1an0_z + (q1r2_z * struts1an1p_y + (Real(0.01) *
-      struts1af1_y + (Real(0.03) * struts1af1_x + struts0am_z_2 * t293))));
-  const Real t306 = tie_rods0bm_y * t292;
-  const Real t311 = Real(1.0) / (q1r1_x * struts1an1p_x + (q1r0_x * struts1an0_z + (q1r2_x * struts1an1p_y -
-      (Real(0.2) * struts1af1_y - (Real(0.03) * struts1af1_z - struts0am_x * t293)))));
-  const Real t312 = (Real(0.02) * tie_rods0bf1_z - (Real(0.07) * tie_rods0bf1_y + struts0am_x * t306)) * t311;
-  const Real t317 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (struts0am_z_2 *
-      t306 + t305 * t312)));
-  const Real t321 = strutax1_x * strutad1_y_2 - (struts1an0_z + (strutax1_y * strutad1_x_2 + struts0am_z *
-      t293));
-  const Real t327 = t317 * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y - (struts0am_z *
-      t306 + t312 * t321)));
-  const Real t330 = t311 * (t321 - t305 * t327);
-  const Real t335 = t292 * (struts0am_x * t330 - (struts0am_z - struts0am_z_2 * t327));
-  const Real t342 = tie_rods0bf0_x * s * t317 * model.c2;
-  const Real t344 = t311 * (t305 * t342);
-  const Real t349 = t330 * state.z[0] + t344;
-  const Real t350 = t335 * state.z[0] + t292 * (struts0am_x * t344 - struts0am_z_2 * t342);
-  const Real t351 = t327 * state.z[0] - t342;
+  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y - (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y + (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y + (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
+  const Real tie_rods0bm_y = Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x;
+  const Real t291 = Real(1.0) / struts0am_y;
+  const Real t292 = struts1am_y * t291;
+  const Real t304 = struts0am_z_2 * t292 - (q1r2_z * struts1an1p_y + (q1r1_z * struts1an1p_x - (q1r0_z *
+      struts1an0_z + (Real(0.01) * struts1af1_y - Real(0.03) * struts1af1_x))));
+  const Real t305 = tie_rods0bm_y * t291;
+  const Real t310 = Real(1.0) / (struts0am_x * t292 - (q1r2_x * struts1an1p_y - (q1r1_x * struts1an1p_x +
+      (q1r0_x * struts1an0_z - (Real(0.2) * struts1af1_y - Real(0.03) * struts1af1_z)))));
+  const Real t311 = (struts0am_x * t305 - (Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z)) * t310;
+  const Real t316 = Real(1.0) / (t304 * t311 - (struts0am_z_2 * t305 + (Real(0.14) * tie_rods0bf1_y -
+      Real(0.02) * tie_rods0bf1_x)));
+  const Real t320 = struts0am_z * t292 + (struts1an0_z - (strutax1_x * strutad1_y_2 + strutax1_y *
+      strutad1_x_2));
+  const Real t326 = t316 * (t311 * t320 - (struts0am_z * t305 - (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y
+      * tie_rods0bf0_x)));
+  const Real t329 = t310 * (t320 - t304 * t326);
+  const Real t334 = t291 * (struts0am_x * t329 - (struts0am_z - struts0am_z_2 * t326));
+  const Real t342 = t316 * (tie_rods0bf0_x * (s * model.c2));
+  const Real t344 = t342 * (t304 * t310);
+  const Real t349 = t329 * state.z[0] + t344;
+  const Real t350 = t334 * state.z[0] + t291 * (struts0am_x * t344 - struts0am_z_2 * t342);
+  const Real t351 = t326 * state.z[0] - t342;
   const Real strutam1t_x = Real(0.2) * t350 + Real(0.03) * t351;
-  const Real strutam1t_y = Real(0.01) * t351 + Real(0.2) * t349;
-  const Real strutam1t_z = Real(0.01) * t350 - Real(0.03) * t349;
-  const Real strutam1vpp_x = q1r1_y * strutam1t_y + (q1r1_x * strutam1t_x + q1r1_z * strutam1t_z);
-  const Real strutam1vpp_y = q1r2_y * strutam1t_y - (q1r2_x * strutam1t_x - q1r2_z * strutam1t_z);
-  const Real strutam1vpp_z = q1r0_y * strutam1t_y + (q1r0_x * strutam1t_x - q1r0_z * strutam1t_z);
+  const Real strutam1t_y = Real(0.01) * t351 - Real(0.2) * t349;
+  const Real strutam1t_z = Real(0.01) * t350 + Real(0.03) * t349;
+  const Real strutam1vpp_x = q1r1_z * strutam1t_z + (q1r1_x * strutam1t_x + q1r1_y * strutam1t_y);
+  const Real strutam1vpp_y = q1r2_z * strutam1t_z - (q1r2_x * strutam1t_x - q1r2_y * strutam1t_y);
+  const Real strutam1vpp_z = q1r0_z * strutam1t_z - (q1r0_x * strutam1t_x + q1r0_y * strutam1t_y);
   const Real strutam0t_x = strutax1_y * state.z[0];
   const Real strutam0t_y = strutax1_x * state.z[0];
   const Real strutam0v_x = s0 * strutam1vpp_y + (c0 * strutam1vpp_x - strutam0t_x);
   const Real strutam0v_y = s0 * strutam1vpp_x - (c0 * strutam1vpp_y + strutam0t_y);
-  const Real h1c_x = q1r1_z * Real(6.08) - (q1r1_y * Real(1.14) - Real(13.770000000000001));
+  const Real h1c_x = q1r1_y * Real(1.14) - (q1r1_z * Real(6.08) + Real(13.770000000000001));
   const Real h1c_y = q1r2_z * Real(6.08) - (q1r2_y * Real(1.14) - Real(0.76));
-  const Real h0b_x = c0 * h1c_x + s0 * h1c_y;
-  const Real spring_damper_ll = strutd_x * strutd_x + (strutd_y * strutd_y + strutd_z * strutd_z +
-      Real(1e-18));
+  const Real h0b_x = c0 * h1c_x - s0 * h1c_y;
+  const Real spring_damper_ll = strutd_z * strutd_z + (strutd_y * strutd_y + (strutd_x * strutd_x +
+      Real(1e-18)));
   const Real spring_damper_l = detail::square_root(spring_damper_ll);
-  const Real spring_damper_rate = (strutd_y * strutam0v_x - (strutd_x * strutam1vpp_z + strutd_z *
-      strutam0v_y)) / spring_damper_l;
+  const Real spring_damper_rate = (strutd_z * strutam0v_y - (strutd_x * strutam1vpp_z + strutd_y *
+      strutam0v_x)) / spring_damper_l;
   const Real spring_damper_e = spring_damper_l - model.free_length;
-  const Real spring_damper_T = spring_damper_e * model.stiffness - spring_damper_rate * model.damping;
+  const Real spring_damper_T = spring_damper_e * model.stiffness + spring_damper_rate * model.damping;
   const Real spring_damper_Tl = spring_damper_T / spring_damper_l;
   const Real spring_damperf_x = strutd_x * spring_damper_Tl;
   const Real spring_damperf_y = strutd_y * spring_damper_Tl;
   const Real spring_damperf_z = strutd_z * spring_damper_Tl;
   const Real spring_damperfb1p_x = c0 * spring_damperf_y - s0 * spring_damperf_z;
   const Real spring_damperfb1p_y = c0 * spring_damperf_z + s0 * spring_damperf_y;
-  const Real spring_damperfb1_x = q1r1_x * spring_damperfb1p_x - (q1r0_x * spring_damperf_x + q1r2_x *
-      spring_damperfb1p_y);
-  const Real spring_damperfb1_y = q1r1_y * spring_damperfb1p_x - (q1r0_y * spring_damperf_x - q1r2_y *
-      spring_damperfb1p_y);
-  const Real spring_damperfb1_z = q1r1_z * spring_damperfb1p_x + (q1r0_z * spring_damperf_x + q1r2_z *
-      spring_damperfb1p_y);
-  const Real wheel_centerx1p_x = q1r1_z * Real(0.12) - (t35 + q1r1_y * Real(0.06));
+  const Real spring_damperfb1_x = q1r2_x * spring_damperfb1p_y + (q1r0_x * spring_damperf_x - q1r1_x *
+      spring_damperfb1p_x);
+  const Real spring_damperfb1_y = q1r2_y * spring_damperfb1p_y - (q1r0_y * spring_damperf_x - q1r1_y *
+      spring_damperfb1p_x);
+  const Real spring_damperfb1_z = q1r2_z * spring_damperfb1p_y + (q1r0_z * spring_damperf_x + q1r1_z *
+      spring_damperfb1p_x);
+  const Real wheel_centerx1p_x = q1r1_y * Real(0.06) + (t35 - q1r1_z * Real(0.12));
   const Real wheel_centerx1p_y = q1r2_z * Real(0.12) + (t44 - q1r2_y * Real(0.06));
-  const Real expression_4 = s0 * wheel_centerx1p_x - (input.u[0] + c0 * wheel_centerx1p_y) -
-      Real(0.11750000000000002);
+  const Real expression_4 = s0 * wheel_centerx1p_x + (c0 * wheel_centerx1p_y + (input.u[0] +
+      Real(0.11750000000000002)));
   const Real expression_5 = expression_4 * model.tyre;
   const Real tyre_forcef1p_x = s0 * expression_5;
   const Real tyre_forcef1p_y = c0 * expression_5;
@@ -944,22 +943,22 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real tyre_forcem_x = Real(0.12) * tyre_forcef1_y + Real(0.06) * tyre_forcef1_z;
   const Real tyre_forcem_y = Real(0.01) * tyre_forcef1_z + Real(0.12) * tyre_forcef1_x;
   const Real tyre_forcem_z = Real(0.01) * tyre_forcef1_y - Real(0.06) * tyre_forcef1_x;
-  const Real qloadf1p_x = q1r1_y * tyre_forcef1_y + (q1r1_x * tyre_forcef1_x + q1r1_z * tyre_forcef1_z);
-  const Real qloadf1p_y = q1r2_y * tyre_forcef1_y - (q1r2_x * tyre_forcef1_x - q1r2_z * tyre_forcef1_z);
+  const Real qloadf1p_x = q1r1_z * tyre_forcef1_z + (q1r1_x * tyre_forcef1_x + q1r1_y * tyre_forcef1_y);
+  const Real qloadf1p_y = q1r2_z * tyre_forcef1_z - (q1r2_x * tyre_forcef1_x - q1r2_y * tyre_forcef1_y);
   const Real g1p_x = s0 * Real(9.81);
   const Real g1p_y = c0 * Real(9.81);
   const Real g1_x = q1r1_x * g1p_x + q1r2_x * g1p_y;
   const Real g1_y = q1r1_y * g1p_x - q1r2_y * g1p_y;
   const Real g1_z = q1r1_z * g1p_x - q1r2_z * g1p_y;
-  const Real q_1 = Real(0.03) * spring_damperfb1_z - (Real(0.2) * spring_damperfb1_y + (tyre_forcem_x +
+  const Real q_1 = Real(0.03) * spring_damperfb1_z - (Real(0.2) * spring_damperfb1_y - (tyre_forcem_x -
       (Real(1.14) * g1_z + Real(6.08) * g1_y)));
-  const Real q_2 = Real(0.2) * spring_damperfb1_x + (Real(0.01) * spring_damperfb1_z + (tyre_forcem_y +
+  const Real q_2 = Real(0.2) * spring_damperfb1_x - (Real(0.01) * spring_damperfb1_z - (tyre_forcem_y -
       Real(6.08) * g1_x));
-  const Real q_3 = Real(0.03) * spring_damperfb1_x + (Real(0.01) * spring_damperfb1_y + (tyre_forcem_z -
+  const Real q_3 = Real(0.03) * spring_damperfb1_x - (Real(0.01) * spring_damperfb1_y - (tyre_forcem_z +
       Real(1.14) * g1_x));
-  q[0] = strutax1_y * spring_damperf_y - (strutax1_x * spring_damperf_z + (q1r0_x * tyre_forcem_x - (q1r0_y *
-      tyre_forcem_y + (q1r0_z * tyre_forcem_z + (Real(0.02) * qloadf1p_x - (Real(0.34) * qloadf1p_y - (h0b_x *
-      Real(9.81) + (t330 * q_1 - (t335 * q_2 + t327 * q_3)))))))));
+  q[0] = -(t329 * q_1 - (strutax1_y * spring_damperf_y - (strutax1_x * spring_damperf_z + (Real(0.02) *
+      qloadf1p_x - Real(0.34) * qloadf1p_y - (q1r0_x * tyre_forcem_x - h0b_x * Real(9.81) - (q1r0_y *
+      tyre_forcem_y + q1r0_z * tyre_forcem_z))))) - (t334 * q_2 + t326 * q_3));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -979,7 +978,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real q101 = q1d1 * state.y[1];
   const Real q102 = q1d2 * state.y[1];
   const Real q103 = q1d3 * state.y[1];
-  const Real q1r0_x = q122 + q133 - Real(1.0);
+  const Real q1r0_x = q133 + (q122 - Real(1.0));
   const Real q1r0_y = q112 - q103;
   const Real q1r0_z = q113 + q102;
   const Real q1r1_x = q112 + q103;
@@ -992,10 +991,10 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t35 = q1r1_x * Real(0.01) - Real(0.34);
   const Real strutax1p_x = q1r1_y * Real(0.03) - (t35 - q1r1_z * Real(0.2));
   const Real t44 = q1r2_x * Real(0.01) + Real(0.02);
-  const Real strutax1p_y = q1r2_y * Real(0.03) + (t44 + q1r2_z * Real(0.2));
+  const Real strutax1p_y = q1r2_z * Real(0.2) + (t44 + q1r2_y * Real(0.03));
   const Real strutax1_x = c0 * strutax1p_x + s0 * strutax1p_y;
   const Real strutax1_y = c0 * strutax1p_y - s0 * strutax1p_x;
-  const Real strutd_x = q1r0_y * Real(0.03) - (q1r0_x * Real(0.01) + q1r0_z * Real(0.2)) - Real(0.04);
+  const Real strutd_x = q1r0_z * Real(0.2) + Real(0.04) + (q1r0_x * Real(0.01) - q1r0_y * Real(0.03));
   const Real strutd_y = strutax1_x - Real(0.22999999999999998);
   const Real strutd_z = strutax1_y + Real(0.5800000000000001);
   const Real strutad1p_x = q1r1_y * Real(0.35112344158839165) + q1r1_x * Real(0.9363291775690445);
@@ -1005,49 +1004,49 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real strutad1_y = c0 * strutad1p_y - s0 * strutad1p_x;
   const Real strutad1p_x_2 = q1r1_y * Real(0.9156733568092016) - (q1r1_x * Real(0.3433775088034506) + q1r1_z *
       Real(0.2088879845220991));
-  const Real strutad1p_y_2 = q1r2_y * Real(0.9156733568092016) + (q1r2_x * Real(0.3433775088034506) - q1r2_z *
-      Real(0.2088879845220991));
-  const Real strutad1p_z_2 = q1r0_y * Real(0.9156733568092016) - (q1r0_x * Real(0.3433775088034506) - q1r0_z *
-      Real(0.2088879845220991));
-  const Real strutad1_x_2 = c0 * strutad1p_x_2 + s0 * strutad1p_y_2;
-  const Real strutad1_y_2 = c0 * strutad1p_y_2 - s0 * strutad1p_x_2;
+  const Real strutad1p_y_2 = q1r2_z * Real(0.2088879845220991) - (q1r2_x * Real(0.3433775088034506) + q1r2_y *
+      Real(0.9156733568092016));
+  const Real strutad1p_z_2 = q1r0_x * Real(0.3433775088034506) - (q1r0_z * Real(0.2088879845220991) + q1r0_y *
+      Real(0.9156733568092016));
+  const Real strutad1_x_2 = c0 * strutad1p_x_2 - s0 * strutad1p_y_2;
+  const Real strutad1_y_2 = c0 * strutad1p_y_2 + s0 * strutad1p_x_2;
   const detail::Angle<Real> expression = detail::Angle<Real>(state.t) * model.rate;
   Real s, c;
   detail::sine_cosine(expression, s, c);
   const Real expression_2 = Real(1.0) - c;
   const Real expression_3 = expression_2 * model.c1;
-  const Real tie_rodbx1p_x = q1r1_y * Real(0.02) + (q1r1_z * Real(0.07) + (Real(0.34) - q1r1_x * Real(0.14)));
-  const Real tie_rodbx1p_y = q1r2_y * Real(0.02) + (q1r2_z * Real(0.07) + (Real(0.02) + q1r2_x * Real(0.14)));
+  const Real tie_rodbx1p_x = Real(0.34) - q1r1_x * Real(0.14) + (q1r1_z * Real(0.07) + q1r1_y * Real(0.02));
+  const Real tie_rodbx1p_y = Real(0.02) + q1r2_x * Real(0.14) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02));
   const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
   const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) - q1r0_y * Real(0.02)) + Real(0.14);
+  const Real tie_rodd_x = q1r0_z * Real(0.07) + Real(0.14) + (q1r0_x * Real(0.14) - q1r0_y * Real(0.02));
   const Real tie_rodd_y = expression_3 - tie_rodbx1_x;
   const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
   const Real struts0an0_z = strutd_y * strutad1_y - strutd_z * strutad1_x;
-  const Real struts0am_z = strutax1_y * strutad1_x + (struts0an0_z - strutax1_x * strutad1_y);
-  const Real struts0af1_y = q1r2_y * strutad1p_y + (q1r0_y * strutad1p_z + q1r1_y * strutad1p_x);
-  const Real struts0af1_z = q1r2_z * strutad1p_y - (q1r0_z * strutad1p_z - q1r1_z * strutad1p_x);
-  const Real struts0an0_x = strutd_x * strutad1_y - strutd_z * strutad1p_z;
-  const Real struts0an0_y = strutd_x * strutad1_x - strutd_y * strutad1p_z;
+  const Real struts0am_z = struts0an0_z - (strutax1_x * strutad1_y - strutax1_y * strutad1_x);
+  const Real struts0af1_y = q1r1_y * strutad1p_x + (q1r0_y * strutad1p_z + q1r2_y * strutad1p_y);
+  const Real struts0af1_z = q1r1_z * strutad1p_x - (q1r0_z * strutad1p_z - q1r2_z * strutad1p_y);
+  const Real struts0an0_x = strutd_x * strutad1_y + strutd_z * strutad1p_z;
+  const Real struts0an0_y = strutd_x * strutad1_x + strutd_y * strutad1p_z;
   const Real struts0an1p_x = c0 * struts0an0_x + s0 * struts0an0_y;
   const Real struts0an1p_y = c0 * struts0an0_y - s0 * struts0an0_x;
-  const Real struts0am_x = Real(0.03) * struts0af1_z - (Real(0.2) * struts0af1_y + (q1r2_x * struts0an1p_y -
-      (q1r0_x * struts0an0_z - q1r1_x * struts0an1p_x)));
-  const Real struts0af1_x = q1r2_x * strutad1p_y - (q1r0_x * strutad1p_z + q1r1_x * strutad1p_x);
-  const Real struts0am_y = Real(0.2) * struts0af1_x - (Real(0.01) * struts0af1_z + (q1r2_y * struts0an1p_y +
-      (q1r0_y * struts0an0_z - q1r1_y * struts0an1p_x)));
-  const Real struts0am_z_2 = Real(0.03) * struts0af1_x - (Real(0.01) * struts0af1_y - (q1r2_z * struts0an1p_y
-      - (q1r0_z * struts0an0_z + q1r1_z * struts0an1p_x)));
-  const Real struts1an0_z = strutd_y * strutad1_y_2 - strutd_z * strutad1_x_2;
-  const Real struts1af1_y = q1r2_y * strutad1p_y_2 + (q1r0_y * strutad1p_z_2 + q1r1_y * strutad1p_x_2);
-  const Real struts1af1_z = q1r2_z * strutad1p_y_2 - (q1r0_z * strutad1p_z_2 - q1r1_z * strutad1p_x_2);
-  const Real struts1an0_x = strutd_x * strutad1_y_2 - strutd_z * strutad1p_z_2;
+  const Real struts0am_x = q1r2_x * struts0an1p_y + (q1r1_x * struts0an1p_x + (q1r0_x * struts0an0_z -
+      (Real(0.2) * struts0af1_y - Real(0.03) * struts0af1_z)));
+  const Real struts0af1_x = q1r1_x * strutad1p_x + (q1r0_x * strutad1p_z - q1r2_x * strutad1p_y);
+  const Real struts0am_y = q1r2_y * struts0an1p_y - (q1r1_y * struts0an1p_x + (q1r0_y * struts0an0_z +
+      (Real(0.01) * struts0af1_z + Real(0.2) * struts0af1_x)));
+  const Real struts0am_z_2 = q1r2_z * struts0an1p_y - (q1r1_z * struts0an1p_x - (q1r0_z * struts0an0_z +
+      (Real(0.01) * struts0af1_y + Real(0.03) * struts0af1_x)));
+  const Real struts1an0_z = strutd_y * strutad1_y_2 + strutd_z * strutad1_x_2;
+  const Real struts1af1_y = q1r2_y * strutad1p_y_2 + (q1r0_y * strutad1p_z_2 - q1r1_y * strutad1p_x_2);
+  const Real struts1af1_z = q1r2_z * strutad1p_y_2 - (q1r0_z * strutad1p_z_2 + q1r1_z * strutad1p_x_2);
+  const Real struts1an0_x = strutd_x * strutad1_y_2 + strutd_z * strutad1p_z_2;
   const Real struts1an0_y = strutd_x * strutad1_x_2 - strutd_y * strutad1p_z_2;
-  const Real struts1an1p_x = c0 * struts1an0_x + s0 * struts1an0_y;
-  const Real struts1an1p_y = c0 * struts1an0_y - s0 * struts1an0_x;
-  const Real struts1af1_x = q1r2_x * strutad1p_y_2 - (q1r0_x * strutad1p_z_2 + q1r1_x * strutad1p_x_2);
-  const Real struts1am_y = Real(0.2) * struts1af1_x - (Real(0.01) * struts1af1_z + (q1r2_y * struts1an1p_y +
-      (q1r0_y * struts1an0_z - q1r1_y * struts1an1p_x)));
+  const Real struts1an1p_x = c0 * struts1an0_x - s0 * struts1an0_y;
+  const Real struts1an1p_y = c0 * struts1an0_y + s0 * struts1an0_x;
+  const Real struts1af1_x = q1r2_x * strutad1p_y_2 - (q1r0_x * strutad1p_z_2 - q1r1_x * strutad1p_x_2);
+  const Real struts1am_y = q1r2_y * struts1an1p_y + (q1r1_y * struts1an1p_x + (q1r0_y * struts1an0_z +
+      (Real(0.01) * struts1af1_z - Real(0.2) * struts1af1_x)));
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
   const Real tie_rods0bf0_y = tie_rodd_z * Real(3.123475237772121);
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
@@ -1058,34 +1057,33 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y + (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
   const Real tie_rods0bm_y = Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x;
   const Real derivative = s * model.c2;
-  const Real tie_rods0at = tie_rods0bf0_x * derivative;
-  const Real t294 = Real(1.0) / struts0am_y;
-  const Real t295 = struts1am_y * t294;
-  const Real t307 = struts0am_z_2 * t295 - (Real(0.03) * struts1af1_x - (Real(0.01) * struts1af1_y - (q1r2_z *
-      struts1an1p_y - (q1r0_z * struts1an0_z + q1r1_z * struts1an1p_x))));
-  const Real t308 = tie_rods0bm_y * t294;
-  const Real t313 = Real(1.0) / (struts0am_x * t295 - (Real(0.03) * struts1af1_z - (Real(0.2) * struts1af1_y +
-      (q1r2_x * struts1an1p_y - (q1r0_x * struts1an0_z - q1r1_x * struts1an1p_x)))));
-  const Real t314 = (struts0am_x * t308 - (Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z)) * t313;
-  const Real t319 = Real(1.0) / (t307 * t314 - (struts0am_z_2 * t308 - (Real(0.14) * tie_rods0bf1_y -
+  const Real t293 = Real(1.0) / struts0am_y;
+  const Real t294 = struts1am_y * t293;
+  const Real t306 = struts0am_z_2 * t294 - (q1r2_z * struts1an1p_y + (q1r1_z * struts1an1p_x - (q1r0_z *
+      struts1an0_z + (Real(0.01) * struts1af1_y - Real(0.03) * struts1af1_x))));
+  const Real t307 = tie_rods0bm_y * t293;
+  const Real t312 = Real(1.0) / (struts0am_x * t294 - (q1r2_x * struts1an1p_y - (q1r1_x * struts1an1p_x +
+      (q1r0_x * struts1an0_z - (Real(0.2) * struts1af1_y - Real(0.03) * struts1af1_z)))));
+  const Real t313 = (struts0am_x * t307 - (Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z)) * t312;
+  const Real t318 = Real(1.0) / (t306 * t313 - (struts0am_z_2 * t307 + (Real(0.14) * tie_rods0bf1_y -
       Real(0.02) * tie_rods0bf1_x)));
-  const Real t323 = struts0am_z * t295 - (strutax1_y * strutad1_x_2 + (struts1an0_z - strutax1_x *
-      strutad1_y_2));
-  const Real t329 = t319 * (t314 * t323 - (struts0am_z * t308 - (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y
+  const Real t322 = struts0am_z * t294 + (struts1an0_z - (strutax1_x * strutad1_y_2 + strutax1_y *
+      strutad1_x_2));
+  const Real t328 = t318 * (t313 * t322 - (struts0am_z * t307 - (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y
       * tie_rods0bf0_x)));
-  const Real t332 = t313 * (t323 - t307 * t329);
-  const Real t337 = t294 * (struts0am_z_2 * t329 - (struts0am_z - struts0am_x * t332));
-  const Real t342 = tie_rods0at * t319;
-  const Real t344 = t313 * (t307 * t342);
-  const Real t349 = t332 * state.z[0] + t344;
-  const Real t350 = t337 * state.z[0] + t294 * (struts0am_x * t344 - struts0am_z_2 * t342);
-  const Real t351 = t329 * state.z[0] - t342;
-  const Real strutam1t_x = Real(0.2) * t350 - Real(0.03) * t351;
-  const Real strutam1t_y = Real(0.01) * t351 + Real(0.2) * t349;
+  const Real t331 = t312 * (t322 - t306 * t328);
+  const Real t336 = t293 * (struts0am_x * t331 - (struts0am_z - struts0am_z_2 * t328));
+  const Real t342 = t318 * (tie_rods0bf0_x * derivative);
+  const Real t344 = t342 * (t306 * t312);
+  const Real t349 = t331 * state.z[0] + t344;
+  const Real t350 = t336 * state.z[0] + t293 * (struts0am_x * t344 - struts0am_z_2 * t342);
+  const Real t351 = t328 * state.z[0] - t342;
+  const Real strutam1t_x = Real(0.2) * t350 + Real(0.03) * t351;
+  const Real strutam1t_y = Real(0.01) * t351 - Real(0.2) * t349;
   const Real strutam1t_z = Real(0.01) * t350 + Real(0.03) * t349;
-  const Real strutam1vpp_x = q1r1_z * strutam1t_z + (q1r1_x * strutam1t_x - q1r1_y * strutam1t_y);
-  const Real strutam1vpp_y = q1r2_z * strutam1t_z - (q1r2_x * strutam1t_x + q1r2_y * strutam1t_y);
-  const Real strutam1vpp_z = q1r0_z * strutam1t_z - (q1r0_x * strutam1t_x - q1r0_y * strutam1t_y);
+  const Real strutam1vpp_x = q1r1_z * strutam1t_z + (q1r1_x * strutam1t_x + q1r1_y * strutam1t_y);
+  const Real strutam1vpp_y = q1r2_z * strutam1t_z - (q1r2_x * strutam1t_x - q1r2_y * strutam1t_y);
+  const Real strutam1vpp_z = q1r0_z * strutam1t_z - (q1r0_x * strutam1t_x + q1r0_y * strutam1t_y);
   const Real strutam1vp_x = c0 * strutam1vpp_x + s0 * strutam1vpp_y;
   const Real strutam1vp_y = c0 * strutam1vpp_y - s0 * strutam1vpp_x;
   const Real strutam0t_x = strutax1_y * state.z[0];
@@ -1095,9 +1093,9 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real strutad1t_x = Real(0.35112344158839165) * t351;
   const Real strutad1t_y = Real(0.9363291775690445) * t351;
   const Real strutad1t_z = Real(0.35112344158839165) * t349 - Real(0.9363291775690445) * t350;
-  const Real strutad1vpp_x = q1r1_z * strutad1t_z - (q1r1_x * strutad1t_x - q1r1_y * strutad1t_y);
-  const Real strutad1vpp_y = q1r2_z * strutad1t_z + (q1r2_x * strutad1t_x + q1r2_y * strutad1t_y);
-  const Real strutad1vpp_z = q1r0_z * strutad1t_z + (q1r0_x * strutad1t_x - q1r0_y * strutad1t_y);
+  const Real strutad1vpp_x = q1r1_z * strutad1t_z + (q1r1_x * strutad1t_x - q1r1_y * strutad1t_y);
+  const Real strutad1vpp_y = q1r2_z * strutad1t_z - (q1r2_x * strutad1t_x + q1r2_y * strutad1t_y);
+  const Real strutad1vpp_z = q1r0_z * strutad1t_z - (q1r0_x * strutad1t_x - q1r0_y * strutad1t_y);
   const Real strutad1vp_x = c0 * strutad1vpp_x + s0 * strutad1vpp_y;
   const Real strutad1vp_y = c0 * strutad1vpp_y - s0 * strutad1vpp_x;
   const Real strutad0t_x = strutad1_y * state.z[0];
@@ -1105,84 +1103,83 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real strutad0v_x = strutad1vp_x - strutad0t_x;
   const Real strutad0v_y = strutad1vp_y + strutad0t_y;
   const Real strutam1a_x = t350 * strutam1t_z + t351 * strutam1t_y;
-  const Real strutam1a_y = t349 * strutam1t_z - t351 * strutam1t_x;
-  const Real strutam1a_z = t349 * strutam1t_y + t350 * strutam1t_x;
-  const Real strutam1app_x = q1r1_z * strutam1a_z - (q1r1_x * strutam1a_x - q1r1_y * strutam1a_y);
-  const Real strutam1app_y = q1r2_z * strutam1a_z + (q1r2_x * strutam1a_x + q1r2_y * strutam1a_y);
-  const Real strutam1app_z = q1r0_z * strutam1a_z + (q1r0_x * strutam1a_x - q1r0_y * strutam1a_y);
+  const Real strutam1a_y = t349 * strutam1t_z + t351 * strutam1t_x;
+  const Real strutam1a_z = t349 * strutam1t_y - t350 * strutam1t_x;
+  const Real strutam1app_x = q1r1_z * strutam1a_z + (q1r1_x * strutam1a_x - q1r1_y * strutam1a_y);
+  const Real strutam1app_y = q1r2_z * strutam1a_z - (q1r2_x * strutam1a_x + q1r2_y * strutam1a_y);
+  const Real strutam1app_z = q1r0_z * strutam1a_z - (q1r0_x * strutam1a_x - q1r0_y * strutam1a_y);
   const Real strutam0b_x = strutam1vp_x + strutam0v_x;
   const Real strutam0b_y = strutam1vp_y + strutam0v_y;
-  const Real strutam0a_x = state.z[0] * strutam0b_y + (c0 * strutam1app_x + s0 * strutam1app_y);
-  const Real strutam0a_y = state.z[0] * strutam0b_x - (c0 * strutam1app_y - s0 * strutam1app_x);
+  const Real strutam0a_x = state.z[0] * strutam0b_y - (c0 * strutam1app_x + s0 * strutam1app_y);
+  const Real strutam0a_y = state.z[0] * strutam0b_x + (c0 * strutam1app_y - s0 * strutam1app_x);
   const Real strutad1a_x = t350 * strutad1t_z - t351 * strutad1t_y;
   const Real strutad1a_y = t349 * strutad1t_z + t351 * strutad1t_x;
   const Real strutad1a_z = t349 * strutad1t_y + t350 * strutad1t_x;
-  const Real strutad1app_x = q1r1_z * strutad1a_z + (q1r1_x * strutad1a_x - q1r1_y * strutad1a_y);
-  const Real strutad1app_y = q1r2_z * strutad1a_z - (q1r2_x * strutad1a_x + q1r2_y * strutad1a_y);
-  const Real strutad1app_z = q1r0_z * strutad1a_z - (q1r0_x * strutad1a_x - q1r0_y * strutad1a_y);
+  const Real strutad1app_x = q1r1_y * strutad1a_y - (q1r1_x * strutad1a_x - q1r1_z * strutad1a_z);
+  const Real strutad1app_y = q1r2_y * strutad1a_y + (q1r2_x * strutad1a_x + q1r2_z * strutad1a_z);
+  const Real strutad1app_z = q1r0_y * strutad1a_y - (q1r0_x * strutad1a_x + q1r0_z * strutad1a_z);
   const Real strutad0b_x = strutad1vp_x + strutad0v_x;
   const Real strutad0b_y = strutad1vp_y + strutad0v_y;
-  const Real strutad0a_x = state.z[0] * strutad0b_y - (c0 * strutad1app_x + s0 * strutad1app_y);
-  const Real strutad0a_y = state.z[0] * strutad0b_x + (c0 * strutad1app_y - s0 * strutad1app_x);
-  const Real bias_strut = Real(2.0) * (strutam0v_y * strutad0v_y + (strutam1vpp_z * strutad1vpp_z +
-      strutam0v_x * strutad0v_x)) + (strutd_z * strutad0a_y - (strutd_y * strutad0a_x + (strutd_x *
-      strutad1app_z - (strutad1_y * strutam0a_y + (strutad1p_z * strutam1app_z - strutad1_x *
-      strutam0a_x)))));
-  const Real strutad1t_x_2 = Real(0.2088879845220991) * t350 + Real(0.9156733568092016) * t351;
-  const Real strutad1t_y_2 = Real(0.3433775088034506) * t351 - Real(0.2088879845220991) * t349;
+  const Real strutad0a_x = state.z[0] * strutad0b_y + (c0 * strutad1app_x + s0 * strutad1app_y);
+  const Real strutad0a_y = state.z[0] * strutad0b_x - (c0 * strutad1app_y - s0 * strutad1app_x);
+  const Real bias_strut = strutad1_y * strutam0a_y + Real(2.0) * (strutam0v_y * strutad0v_y + (strutam1vpp_z *
+      strutad1vpp_z + strutam0v_x * strutad0v_x)) - (strutd_y * strutad0a_x + (strutad1p_z * strutam1app_z -
+      strutd_x * strutad1app_z) + (strutad1_x * strutam0a_x - strutd_z * strutad0a_y));
+  const Real strutad1t_x_2 = Real(0.2088879845220991) * t350 - Real(0.9156733568092016) * t351;
+  const Real strutad1t_y_2 = Real(0.3433775088034506) * t351 + Real(0.2088879845220991) * t349;
   const Real strutad1t_z_2 = Real(0.3433775088034506) * t350 + Real(0.9156733568092016) * t349;
-  const Real strutad1vpp_x_2 = q1r1_z * strutad1t_z_2 - (q1r1_x * strutad1t_x_2 + q1r1_y * strutad1t_y_2);
-  const Real strutad1vpp_y_2 = q1r2_z * strutad1t_z_2 + (q1r2_x * strutad1t_x_2 - q1r2_y * strutad1t_y_2);
-  const Real strutad1vpp_z_2 = q1r0_z * strutad1t_z_2 + (q1r0_x * strutad1t_x_2 + q1r0_y * strutad1t_y_2);
+  const Real strutad1vpp_x_2 = q1r1_z * strutad1t_z_2 - (q1r1_x * strutad1t_x_2 - q1r1_y * strutad1t_y_2);
+  const Real strutad1vpp_y_2 = q1r2_z * strutad1t_z_2 + (q1r2_x * strutad1t_x_2 + q1r2_y * strutad1t_y_2);
+  const Real strutad1vpp_z_2 = q1r0_z * strutad1t_z_2 + (q1r0_x * strutad1t_x_2 - q1r0_y * strutad1t_y_2);
   const Real strutad1vp_x_2 = c0 * strutad1vpp_x_2 + s0 * strutad1vpp_y_2;
   const Real strutad1vp_y_2 = c0 * strutad1vpp_y_2 - s0 * strutad1vpp_x_2;
   const Real strutad0t_x_2 = strutad1_y_2 * state.z[0];
   const Real strutad0t_y_2 = strutad1_x_2 * state.z[0];
-  const Real strutad0v_x_2 = strutad1vp_x_2 - strutad0t_x_2;
+  const Real strutad0v_x_2 = strutad1vp_x_2 + strutad0t_x_2;
   const Real strutad0v_y_2 = strutad1vp_y_2 + strutad0t_y_2;
   const Real strutad1a_x_2 = t350 * strutad1t_z_2 + t351 * strutad1t_y_2;
-  const Real strutad1a_y_2 = t349 * strutad1t_z_2 + t351 * strutad1t_x_2;
-  const Real strutad1a_z_2 = t349 * strutad1t_y_2 - t350 * strutad1t_x_2;
-  const Real strutad1app_x_2 = q1r1_z * strutad1a_z_2 - (q1r1_x * strutad1a_x_2 - q1r1_y * strutad1a_y_2);
-  const Real strutad1app_y_2 = q1r2_z * strutad1a_z_2 + (q1r2_x * strutad1a_x_2 + q1r2_y * strutad1a_y_2);
-  const Real strutad1app_z_2 = q1r0_z * strutad1a_z_2 + (q1r0_x * strutad1a_x_2 - q1r0_y * strutad1a_y_2);
+  const Real strutad1a_y_2 = t349 * strutad1t_z_2 - t351 * strutad1t_x_2;
+  const Real strutad1a_z_2 = t349 * strutad1t_y_2 + t350 * strutad1t_x_2;
+  const Real strutad1app_x_2 = q1r1_z * strutad1a_z_2 + (q1r1_x * strutad1a_x_2 - q1r1_y * strutad1a_y_2);
+  const Real strutad1app_y_2 = q1r2_z * strutad1a_z_2 - (q1r2_x * strutad1a_x_2 + q1r2_y * strutad1a_y_2);
+  const Real strutad1app_z_2 = q1r0_z * strutad1a_z_2 - (q1r0_x * strutad1a_x_2 - q1r0_y * strutad1a_y_2);
   const Real strutad0b_x_2 = strutad1vp_x_2 + strutad0v_x_2;
   const Real strutad0b_y_2 = strutad1vp_y_2 + strutad0v_y_2;
-  const Real strutad0a_x_2 = state.z[0] * strutad0b_y_2 + (c0 * strutad1app_x_2 + s0 * strutad1app_y_2);
-  const Real strutad0a_y_2 = state.z[0] * strutad0b_x_2 - (c0 * strutad1app_y_2 - s0 * strutad1app_x_2);
-  const Real tie_rodbm1t_x = Real(0.07) * t350 - Real(0.02) * t351;
-  const Real tie_rodbm1t_y = Real(0.14) * t351 + Real(0.07) * t349;
+  const Real strutad0a_x_2 = state.z[0] * strutad0b_y_2 - (c0 * strutad1app_x_2 + s0 * strutad1app_y_2);
+  const Real strutad0a_y_2 = state.z[0] * strutad0b_x_2 + (c0 * strutad1app_y_2 - s0 * strutad1app_x_2);
+  const Real tie_rodbm1t_x = Real(0.07) * t350 + Real(0.02) * t351;
+  const Real tie_rodbm1t_y = Real(0.14) * t351 - Real(0.07) * t349;
   const Real tie_rodbm1t_z = Real(0.14) * t350 + Real(0.02) * t349;
-  const Real tie_rodbm1vpp_x = q1r1_z * tie_rodbm1t_z + (q1r1_x * tie_rodbm1t_x - q1r1_y * tie_rodbm1t_y);
-  const Real tie_rodbm1vpp_y = q1r2_z * tie_rodbm1t_z - (q1r2_x * tie_rodbm1t_x + q1r2_y * tie_rodbm1t_y);
-  const Real tie_rodbm1vpp_z = q1r0_z * tie_rodbm1t_z - (q1r0_x * tie_rodbm1t_x - q1r0_y * tie_rodbm1t_y);
+  const Real tie_rodbm1vpp_x = q1r1_z * tie_rodbm1t_z + (q1r1_x * tie_rodbm1t_x + q1r1_y * tie_rodbm1t_y);
+  const Real tie_rodbm1vpp_y = q1r2_z * tie_rodbm1t_z - (q1r2_x * tie_rodbm1t_x - q1r2_y * tie_rodbm1t_y);
+  const Real tie_rodbm1vpp_z = q1r0_z * tie_rodbm1t_z - (q1r0_x * tie_rodbm1t_x + q1r0_y * tie_rodbm1t_y);
   const Real tie_rodbm1vp_x = c0 * tie_rodbm1vpp_x + s0 * tie_rodbm1vpp_y;
   const Real tie_rodbm1vp_y = c0 * tie_rodbm1vpp_y - s0 * tie_rodbm1vpp_x;
   const Real tie_rodbm0t_x = tie_rodbx1_y * state.z[0];
   const Real tie_rodbm0t_y = tie_rodbx1_x * state.z[0];
   const Real tie_rodbm0v_y = tie_rodbm1vp_y + tie_rodbm0t_y;
-  const Real tie_roddv_y = tie_rodbm0t_x - (derivative + tie_rodbm1vp_x);
+  const Real tie_roddv_y = tie_rodbm1vp_x + (derivative - tie_rodbm0t_x);
   const Real derivative_2 = c * model.c3;
   const Real tie_rodbm1a_x = t350 * tie_rodbm1t_z + t351 * tie_rodbm1t_y;
-  const Real tie_rodbm1a_y = t349 * tie_rodbm1t_z - t351 * tie_rodbm1t_x;
-  const Real tie_rodbm1a_z = t349 * tie_rodbm1t_y + t350 * tie_rodbm1t_x;
-  const Real tie_rodbm1app_x = q1r1_z * tie_rodbm1a_z - (q1r1_x * tie_rodbm1a_x - q1r1_y * tie_rodbm1a_y);
-  const Real tie_rodbm1app_y = q1r2_z * tie_rodbm1a_z + (q1r2_x * tie_rodbm1a_x + q1r2_y * tie_rodbm1a_y);
-  const Real tie_rodbm1app_z = q1r0_z * tie_rodbm1a_z + (q1r0_x * tie_rodbm1a_x - q1r0_y * tie_rodbm1a_y);
+  const Real tie_rodbm1a_y = t349 * tie_rodbm1t_z + t351 * tie_rodbm1t_x;
+  const Real tie_rodbm1a_z = t349 * tie_rodbm1t_y - t350 * tie_rodbm1t_x;
+  const Real tie_rodbm1app_x = q1r1_z * tie_rodbm1a_z + (q1r1_x * tie_rodbm1a_x - q1r1_y * tie_rodbm1a_y);
+  const Real tie_rodbm1app_y = q1r2_z * tie_rodbm1a_z - (q1r2_x * tie_rodbm1a_x + q1r2_y * tie_rodbm1a_y);
+  const Real tie_rodbm1app_z = q1r0_z * tie_rodbm1a_z - (q1r0_x * tie_rodbm1a_x - q1r0_y * tie_rodbm1a_y);
   const Real tie_rodbm0b_x = tie_rodbm0t_x - Real(2.0) * tie_rodbm1vp_x;
   const Real tie_rodbm0b_y = tie_rodbm1vp_y + tie_rodbm0v_y;
-  const Real tie_rodbm0a_y = state.z[0] * tie_rodbm0b_x + (c0 * tie_rodbm1app_y - s0 * tie_rodbm1app_x);
-  const Real tie_rodda_y = state.z[0] * tie_rodbm0b_y + (s0 * tie_rodbm1app_y + (derivative_2 + c0 *
+  const Real tie_rodbm0a_y = state.z[0] * tie_rodbm0b_x - (c0 * tie_rodbm1app_y - s0 * tie_rodbm1app_x);
+  const Real tie_rodda_y = state.z[0] * tie_rodbm0b_y - (s0 * tie_rodbm1app_y - (derivative_2 - c0 *
       tie_rodbm1app_x));
-  const Real t676 = Real(2.0) * (strutam0v_y * strutad0v_y_2 + (strutam1vpp_z * strutad1vpp_z_2 + strutam0v_x
-      * strutad0v_x_2)) - (t295 * bias_strut - (strutd_z * strutad0a_y_2 - (strutd_y * strutad0a_x_2 -
-      (strutd_x * strutad1app_z_2 + (strutad1_y_2 * strutam0a_y + (strutad1p_z_2 * strutam1app_z -
-      strutad1_x_2 * strutam0a_x))))));
-  const Real t687 = t319 * (Real(3.123475237772121) * (tie_rodd_y * tie_rodda_y - (tie_rodd_z * tie_rodbm0a_y
-      + (tie_rodd_x * tie_rodbm1app_z - (tie_roddv_y * tie_roddv_y + (tie_rodbm1vpp_z * tie_rodbm1vpp_z +
-      tie_rodbm0v_y * tie_rodbm0v_y))))) + (t308 * bias_strut + t314 * t676));
-  const Real t690 = t313 * (t676 - t307 * t687);
-  const Real t695 = t294 * (struts0am_z_2 * t687 + (bias_strut + struts0am_x * t690));
+  const Real t676 = t294 * bias_strut - (strutd_z * strutad0a_y_2 + Real(2.0) * (strutam0v_y * strutad0v_y_2 +
+      (strutam1vpp_z * strutad1vpp_z_2 + strutam0v_x * strutad0v_x_2)) - (strutad1_x_2 * strutam0a_x -
+      (strutad1p_z_2 * strutam1app_z + strutd_x * strutad1app_z_2) + (strutad1_y_2 * strutam0a_y + strutd_y *
+      strutad0a_x_2)));
+  const Real t687 = t318 * (t313 * t676 - (t307 * bias_strut + Real(3.123475237772121) * (tie_rodd_y *
+      tie_rodda_y - (tie_rodd_z * tie_rodbm0a_y - (tie_rodbm1vpp_z * tie_rodbm1vpp_z + tie_rodd_x *
+      tie_rodbm1app_z + (tie_rodbm0v_y * tie_rodbm0v_y + tie_roddv_y * tie_roddv_y))))));
+  const Real t690 = t312 * (t676 - t306 * t687);
+  const Real t695 = t293 * (struts0am_x * t690 - (bias_strut - struts0am_z_2 * t687));
   const Real h1at1_x = q1r1_y * Real(1.14) - q1r1_z * Real(6.08);
   const Real h1at1_y = q1r2_y * Real(1.14) - q1r2_z * Real(6.08);
   const Real S1at1r0_y = q1r1_z * Real(0.1824) - q1r1_y * Real(0.3842000000000001);
@@ -1191,20 +1188,20 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real S1at1r1_z = q1r2_z * Real(2.2228) - q1r2_y * Real(0.1824);
   const Real p_1_1f_x = q1r1_z * Real(1.14) + q1r1_y * Real(6.08);
   const Real p_1_1f_y = q1r2_z * Real(1.14) + q1r2_y * Real(6.08);
-  const Real p_1_1n_z = q1r0_x * Real(2.607) - (Real(0.02) * p_1_1f_x - Real(0.34) * p_1_1f_y);
+  const Real p_1_1n_z = Real(0.34) * p_1_1f_y - (Real(0.02) * p_1_1f_x - q1r0_x * Real(2.607));
   const Real t748 = q1r1_x * Real(0.1216) + q1r2_x * Real(2.0672);
-  const Real p_2_1n_z = q1r0_z * Real(0.1824) - (q1r0_y * Real(2.8728) + t748);
-  const Real p_3_1n_z = q1r0_y * Real(0.1824) - (q1r0_z * Real(1.0342) - t748 * Real(0.1875));
+  const Real p_2_1n_z = t748 + (q1r0_y * Real(2.8728) - q1r0_z * Real(0.1824));
+  const Real p_3_1n_z = t748 * Real(0.1875) - (q1r0_z * Real(1.0342) - q1r0_y * Real(0.1824));
   const Real h1c_x = h1at1_x - Real(13.770000000000001);
   const Real h1c_y = h1at1_y - Real(0.76);
   const Real h0b_x = c0 * h1c_x + s0 * h1c_y;
   const Real w1p_x = q1r0_x * state.z[0];
   const Real w1p_y = q1r0_y * state.z[0];
   const Real w1p_z = q1r0_z * state.z[0];
-  const Real spring_damper_ll = strutd_z * strutd_z + (strutd_x * strutd_x + strutd_y * strutd_y) +
-      Real(1e-18);
+  const Real spring_damper_ll = strutd_z * strutd_z + (strutd_y * strutd_y + (strutd_x * strutd_x +
+      Real(1e-18)));
   const Real spring_damper_l = detail::square_root(spring_damper_ll);
-  const Real spring_damper_rate = (strutd_z * strutam0v_y - (strutd_x * strutam1vpp_z - strutd_y *
+  const Real spring_damper_rate = (strutd_z * strutam0v_y + (strutd_x * strutam1vpp_z + strutd_y *
       strutam0v_x)) / spring_damper_l;
   const Real spring_damper_e = spring_damper_l - model.free_length;
   const Real spring_damper_T = spring_damper_e * model.stiffness - spring_damper_rate * model.damping;
@@ -1214,16 +1211,16 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real spring_damperf_z = strutd_z * spring_damper_Tl;
   const Real spring_damperfb1p_x = c0 * spring_damperf_y - s0 * spring_damperf_z;
   const Real spring_damperfb1p_y = c0 * spring_damperf_z + s0 * spring_damperf_y;
-  const Real spring_damperfb1_x = q1r2_x * spring_damperfb1p_y - (q1r0_x * spring_damperf_x + q1r1_x *
+  const Real spring_damperfb1_x = q1r2_x * spring_damperfb1p_y + (q1r0_x * spring_damperf_x - q1r1_x *
       spring_damperfb1p_x);
-  const Real spring_damperfb1_y = q1r2_y * spring_damperfb1p_y + (q1r0_y * spring_damperf_x + q1r1_y *
+  const Real spring_damperfb1_y = q1r2_y * spring_damperfb1p_y - (q1r0_y * spring_damperf_x - q1r1_y *
       spring_damperfb1p_x);
-  const Real spring_damperfb1_z = q1r2_z * spring_damperfb1p_y - (q1r0_z * spring_damperf_x - q1r1_z *
+  const Real spring_damperfb1_z = q1r2_z * spring_damperfb1p_y + (q1r0_z * spring_damperf_x + q1r1_z *
       spring_damperfb1p_x);
   const Real wheel_centerx1p_x = q1r1_y * Real(0.06) + (t35 - q1r1_z * Real(0.12));
-  const Real wheel_centerx1p_y = q1r2_y * Real(0.06) - (t44 + q1r2_z * Real(0.12));
-  const Real expression_4 = c0 * wheel_centerx1p_y - (input.u[0] + s0 * wheel_centerx1p_x) -
-      Real(0.11750000000000002);
+  const Real wheel_centerx1p_y = q1r2_z * Real(0.12) + (t44 - q1r2_y * Real(0.06));
+  const Real expression_4 = s0 * wheel_centerx1p_x + (c0 * wheel_centerx1p_y + (input.u[0] +
+      Real(0.11750000000000002)));
   const Real expression_5 = expression_4 * model.tyre;
   const Real tyre_forcef1p_x = s0 * expression_5;
   const Real tyre_forcef1p_y = c0 * expression_5;
@@ -1244,37 +1241,36 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real rK1_z = Real(2.2228) * w1p_z + Real(0.1824) * w1p_y;
   const Real ru1_x = t349 - Real(2.0) * w1p_x;
   const Real ru1_y = t350 - Real(2.0) * w1p_y;
-  const Real ru1_z = t351 + Real(2.0) * w1p_z;
+  const Real ru1_z = t351 - Real(2.0) * w1p_z;
   const Real rSu1_x = Real(0.6499999999999999) * ru1_x;
-  const Real rSu1_y = Real(0.1824) * ru1_z - Real(0.3842000000000001) * ru1_y;
-  const Real rSu1_z = Real(2.2228) * ru1_z - Real(0.1824) * ru1_y;
-  const Real ruh1 = Real(1.14) * ru1_y - Real(6.08) * ru1_z;
-  const Real ruw1 = t351 * ru1_z + (t349 * ru1_x + t350 * ru1_y);
-  const Real ref1_x = t349 * ruh1 - (t695 * Real(6.08) + (tyre_forcef1_x + t687 * Real(1.14)));
-  const Real ref1_y = t350 * ruh1 + (t690 * Real(6.08) - (tyre_forcef1_y + Real(1.14) * ruw1));
-  const Real ref1_z = t351 * ruh1 + (Real(6.08) * ruw1 - (tyre_forcef1_z - t690 * Real(1.14)));
-  const Real ren1_x = t351 * rSu1_y + (t350 * rSu1_z - (t690 * Real(2.607) - (Real(0.12) * tyre_forcef1_y +
+  const Real rSu1_y = Real(0.1824) * ru1_z + Real(0.3842000000000001) * ru1_y;
+  const Real rSu1_z = Real(2.2228) * ru1_z + Real(0.1824) * ru1_y;
+  const Real ruh1 = Real(1.14) * ru1_y + Real(6.08) * ru1_z;
+  const Real ruw1 = t350 * ru1_y + (t349 * ru1_x + t351 * ru1_z);
+  const Real ref1_x = t695 * Real(6.08) - (t687 * Real(1.14) - (tyre_forcef1_x + t349 * ruh1));
+  const Real ref1_y = t690 * Real(6.08) - (t350 * ruh1 + (tyre_forcef1_y - Real(1.14) * ruw1));
+  const Real ref1_z = t690 * Real(1.14) + (t351 * ruh1 - (tyre_forcef1_z + Real(6.08) * ruw1));
+  const Real ren1_x = t690 * Real(2.607) + (t351 * rSu1_y - (t350 * rSu1_z + (Real(0.12) * tyre_forcef1_y +
       Real(0.06) * tyre_forcef1_z)));
-  const Real ren1_y = t351 * rSu1_x - (t349 * rSu1_z + (t687 * Real(0.1824) + (t695 * Real(2.8728) +
+  const Real ren1_y = t695 * Real(2.8728) - (t687 * Real(0.1824) - (t349 * rSu1_z - (t351 * rSu1_x -
       (Real(0.01) * tyre_forcef1_z + Real(0.12) * tyre_forcef1_x))));
-  const Real ren1_z = t350 * rSu1_x + (t349 * rSu1_y + (t695 * Real(0.1824) + (t687 * Real(1.0342) -
+  const Real ren1_z = t695 * Real(0.1824) - (t687 * Real(1.0342) - (t349 * rSu1_y - (t350 * rSu1_x +
       (Real(0.01) * tyre_forcef1_y - Real(0.06) * tyre_forcef1_x))));
-  const Real rf1p_x = q1r1_z * ref1_z + (q1r1_x * ref1_x + q1r1_y * ref1_y);
-  const Real rf1p_y = q1r2_z * ref1_z - (q1r2_x * ref1_x - q1r2_y * ref1_y);
-  const Real tau_1_0 = ren1_x + (w1p_z * rK1_y - (w1p_y * rK1_z - (Real(6.08) * ra1_y + (Real(1.14) * ra1_z +
-      (Real(0.2) * spring_damperfb1_y - Real(0.03) * spring_damperfb1_z)))));
-  const Real tau_1_1 = ren1_y - (w1p_z * rK1_x - (w1p_x * rK1_z - (Real(6.08) * ra1_x + (Real(0.01) *
-      spring_damperfb1_z - Real(0.2) * spring_damperfb1_x))));
-  const Real tau_1_2 = ren1_z + (w1p_y * rK1_x - (w1p_x * rK1_y - (Real(1.14) * ra1_x - (Real(0.01) *
-      spring_damperfb1_y - Real(0.03) * spring_damperfb1_x))));
-  zdot[0] = (t329 * tau_1_2 - (t337 * tau_1_1 + (t332 * tau_1_0 + (Real(0.34) * rf1p_y - (Real(0.02) * rf1p_x
-      + (q1r0_z * ren1_z + (q1r0_y * ren1_y + (q1r0_x * ren1_x + (rQp0 + (strutax1_x * spring_damperf_z -
-      strutax1_y * spring_damperf_y)))))))))) / ((q1r1_x * q1r1_x + q1r2_x * q1r2_x) *
-      Real(0.6499999999999999) - (q1r1_y * S1at1r0_y - (q1r1_z * S1at1r0_z - (h1at1_x * Real(0.68) + (q1r2_y *
-      S1at1r1_y - (q1r2_z * S1at1r1_z - (h1at1_y * Real(0.04) - (t337 * (t329 * Real(0.1824) + (p_2_1n_z +
-      (p_2_1n_z + t337 * Real(2.8728)))) + (t329 * (t329 * Real(1.0342) - (p_3_1n_z + (p_3_1n_z - t337 *
-      Real(0.1824)))) - t332 * (p_1_1n_z + (p_1_1n_z - t332 * Real(2.607)))))))))) -
-      Real(4.612500000000001)));
+  const Real rf1p_x = q1r1_x * ref1_x - (q1r1_y * ref1_y + q1r1_z * ref1_z);
+  const Real rf1p_y = q1r2_x * ref1_x + (q1r2_y * ref1_y + q1r2_z * ref1_z);
+  const Real tau_1_0 = Real(0.03) * spring_damperfb1_z - (Real(0.2) * spring_damperfb1_y + (ren1_x +
+      (Real(6.08) * ra1_y + (Real(1.14) * ra1_z - (w1p_y * rK1_z - w1p_z * rK1_y)))));
+  const Real tau_1_1 = Real(0.01) * spring_damperfb1_z + (Real(6.08) * ra1_x - (w1p_x * rK1_z - w1p_z *
+      rK1_x)) - (Real(0.2) * spring_damperfb1_x + ren1_y);
+  const Real tau_1_2 = Real(0.01) * spring_damperfb1_y - (Real(1.14) * ra1_x - (w1p_x * rK1_y - w1p_y *
+      rK1_x)) - (Real(0.03) * spring_damperfb1_x - ren1_z);
+  zdot[0] = (t328 * tau_1_2 - (q1r0_z * ren1_z - t331 * tau_1_0) + (Real(0.02) * rf1p_x + (q1r0_y * ren1_y +
+      (q1r0_x * ren1_x - (strutax1_y * spring_damperf_y - (strutax1_x * spring_damperf_z + rQp0)))) +
+      (Real(0.34) * rf1p_y + t336 * tau_1_1))) / (t336 * (t336 * Real(2.8728) - (t328 * Real(0.1824) +
+      (p_2_1n_z + p_2_1n_z))) - (t328 * (t336 * Real(0.1824) - (t328 * Real(1.0342) + (p_3_1n_z + p_3_1n_z)))
+      - (t331 * (t331 * Real(2.607) - (p_1_1n_z + p_1_1n_z)) + ((q1r1_x * q1r1_x + q1r2_x * q1r2_x) *
+      Real(0.6499999999999999) + Real(4.612500000000001) - (q1r1_y * S1at1r0_y - q1r1_z * S1at1r0_z) - (q1r2_y
+      * S1at1r1_y - q1r2_z * S1at1r1_z + (h1at1_x * Real(0.68) + h1at1_y * Real(0.04)))))));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -1294,7 +1290,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real q101 = q1d1 * state.y[1];
   const Real q102 = q1d2 * state.y[1];
   const Real q103 = q1d3 * state.y[1];
-  const Real q1r0_x = q122 + q133 - Real(1.0);
+  const Real q1r0_x = q133 + (q122 - Real(1.0));
   const Real q1r0_y = q112 - q103;
   const Real q1r0_z = q113 + q102;
   const Real q1r1_x = q112 + q103;
@@ -1307,10 +1303,10 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t35 = q1r1_x * Real(0.01) - Real(0.34);
   const Real strutax1p_x = q1r1_y * Real(0.03) - (t35 - q1r1_z * Real(0.2));
   const Real t44 = q1r2_x * Real(0.01) + Real(0.02);
-  const Real strutax1p_y = q1r2_y * Real(0.03) + (t44 + q1r2_z * Real(0.2));
+  const Real strutax1p_y = q1r2_z * Real(0.2) + (t44 + q1r2_y * Real(0.03));
   const Real strutax1_x = c0 * strutax1p_x + s0 * strutax1p_y;
   const Real strutax1_y = c0 * strutax1p_y - s0 * strutax1p_x;
-  const Real strutd_x = q1r0_y * Real(0.03) - (q1r0_x * Real(0.01) + q1r0_z * Real(0.2)) - Real(0.04);
+  const Real strutd_x = q1r0_z * Real(0.2) + Real(0.04) + (q1r0_x * Real(0.01) - q1r0_y * Real(0.03));
   const Real strutd_y = strutax1_x - Real(0.22999999999999998);
   const Real strutd_z = strutax1_y + Real(0.5800000000000001);
   const Real strutad1p_x = q1r1_y * Real(0.35112344158839165) + q1r1_x * Real(0.9363291775690445);
@@ -1320,49 +1316,49 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real strutad1_y = c0 * strutad1p_y - s0 * strutad1p_x;
   const Real strutad1p_x_2 = q1r1_y * Real(0.9156733568092016) - (q1r1_x * Real(0.3433775088034506) + q1r1_z *
       Real(0.2088879845220991));
-  const Real strutad1p_y_2 = q1r2_y * Real(0.9156733568092016) + (q1r2_x * Real(0.3433775088034506) - q1r2_z *
-      Real(0.2088879845220991));
-  const Real strutad1p_z_2 = q1r0_y * Real(0.9156733568092016) - (q1r0_x * Real(0.3433775088034506) - q1r0_z *
-      Real(0.2088879845220991));
-  const Real strutad1_x_2 = c0 * strutad1p_x_2 + s0 * strutad1p_y_2;
-  const Real strutad1_y_2 = c0 * strutad1p_y_2 - s0 * strutad1p_x_2;
+  const Real strutad1p_y_2 = q1r2_z * Real(0.2088879845220991) - (q1r2_x * Real(0.3433775088034506) + q1r2_y *
+      Real(0.9156733568092016));
+  const Real strutad1p_z_2 = q1r0_x * Real(0.3433775088034506) - (q1r0_z * Real(0.2088879845220991) + q1r0_y *
+      Real(0.9156733568092016));
+  const Real strutad1_x_2 = c0 * strutad1p_x_2 - s0 * strutad1p_y_2;
+  const Real strutad1_y_2 = c0 * strutad1p_y_2 + s0 * strutad1p_x_2;
   const detail::Angle<Real> expression = detail::Angle<Real>(state.t) * model.rate;
   Real s, c;
   detail::sine_cosine(expression, s, c);
   const Real expression_2 = Real(1.0) - c;
   const Real expression_3 = expression_2 * model.c1;
-  const Real tie_rodbx1p_x = q1r1_y * Real(0.02) + (q1r1_z * Real(0.07) + (Real(0.34) - q1r1_x * Real(0.14)));
-  const Real tie_rodbx1p_y = q1r2_y * Real(0.02) + (q1r2_z * Real(0.07) + (Real(0.02) + q1r2_x * Real(0.14)));
+  const Real tie_rodbx1p_x = Real(0.34) - q1r1_x * Real(0.14) + (q1r1_z * Real(0.07) + q1r1_y * Real(0.02));
+  const Real tie_rodbx1p_y = Real(0.02) + q1r2_x * Real(0.14) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02));
   const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
   const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) - q1r0_y * Real(0.02)) + Real(0.14);
+  const Real tie_rodd_x = q1r0_z * Real(0.07) + Real(0.14) + (q1r0_x * Real(0.14) - q1r0_y * Real(0.02));
   const Real tie_rodd_y = expression_3 - tie_rodbx1_x;
   const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
   const Real struts0an0_z = strutd_y * strutad1_y - strutd_z * strutad1_x;
-  const Real struts0am_z = strutax1_y * strutad1_x + (struts0an0_z - strutax1_x * strutad1_y);
-  const Real struts0af1_y = q1r2_y * strutad1p_y + (q1r0_y * strutad1p_z + q1r1_y * strutad1p_x);
-  const Real struts0af1_z = q1r2_z * strutad1p_y - (q1r0_z * strutad1p_z - q1r1_z * strutad1p_x);
-  const Real struts0an0_x = strutd_x * strutad1_y - strutd_z * strutad1p_z;
-  const Real struts0an0_y = strutd_x * strutad1_x - strutd_y * strutad1p_z;
+  const Real struts0am_z = struts0an0_z - (strutax1_x * strutad1_y - strutax1_y * strutad1_x);
+  const Real struts0af1_y = q1r1_y * strutad1p_x + (q1r0_y * strutad1p_z + q1r2_y * strutad1p_y);
+  const Real struts0af1_z = q1r1_z * strutad1p_x - (q1r0_z * strutad1p_z - q1r2_z * strutad1p_y);
+  const Real struts0an0_x = strutd_x * strutad1_y + strutd_z * strutad1p_z;
+  const Real struts0an0_y = strutd_x * strutad1_x + strutd_y * strutad1p_z;
   const Real struts0an1p_x = c0 * struts0an0_x + s0 * struts0an0_y;
   const Real struts0an1p_y = c0 * struts0an0_y - s0 * struts0an0_x;
-  const Real struts0am_x = Real(0.03) * struts0af1_z - (Real(0.2) * struts0af1_y + (q1r2_x * struts0an1p_y -
-      (q1r0_x * struts0an0_z - q1r1_x * struts0an1p_x)));
-  const Real struts0af1_x = q1r2_x * strutad1p_y - (q1r0_x * strutad1p_z + q1r1_x * strutad1p_x);
-  const Real struts0am_y = Real(0.2) * struts0af1_x - (Real(0.01) * struts0af1_z + (q1r2_y * struts0an1p_y +
-      (q1r0_y * struts0an0_z - q1r1_y * struts0an1p_x)));
-  const Real struts0am_z_2 = Real(0.03) * struts0af1_x - (Real(0.01) * struts0af1_y - (q1r2_z * struts0an1p_y
-      - (q1r0_z * struts0an0_z + q1r1_z * struts0an1p_x)));
-  const Real struts1an0_z = strutd_y * strutad1_y_2 - strutd_z * strutad1_x_2;
-  const Real struts1af1_y = q1r2_y * strutad1p_y_2 + (q1r0_y * strutad1p_z_2 + q1r1_y * strutad1p_x_2);
-  const Real struts1af1_z = q1r2_z * strutad1p_y_2 - (q1r0_z * strutad1p_z_2 - q1r1_z * strutad1p_x_2);
-  const Real struts1an0_x = strutd_x * strutad1_y_2 - strutd_z * strutad1p_z_2;
+  const Real struts0am_x = q1r2_x * struts0an1p_y + (q1r1_x * struts0an1p_x + (q1r0_x * struts0an0_z -
+      (Real(0.2) * struts0af1_y - Real(0.03) * struts0af1_z)));
+  const Real struts0af1_x = q1r1_x * strutad1p_x + (q1r0_x * strutad1p_z - q1r2_x * strutad1p_y);
+  const Real struts0am_y = q1r2_y * struts0an1p_y - (q1r1_y * struts0an1p_x + (q1r0_y * struts0an0_z +
+      (Real(0.01) * struts0af1_z + Real(0.2) * struts0af1_x)));
+  const Real struts0am_z_2 = q1r2_z * struts0an1p_y - (q1r1_z * struts0an1p_x - (q1r0_z * struts0an0_z +
+      (Real(0.01) * struts0af1_y + Real(0.03) * struts0af1_x)));
+  const Real struts1an0_z = strutd_y * strutad1_y_2 + strutd_z * strutad1_x_2;
+  const Real struts1af1_y = q1r2_y * strutad1p_y_2 + (q1r0_y * strutad1p_z_2 - q1r1_y * strutad1p_x_2);
+  const Real struts1af1_z = q1r2_z * strutad1p_y_2 - (q1r0_z * strutad1p_z_2 + q1r1_z * strutad1p_x_2);
+  const Real struts1an0_x = strutd_x * strutad1_y_2 + strutd_z * strutad1p_z_2;
   const Real struts1an0_y = strutd_x * strutad1_x_2 - strutd_y * strutad1p_z_2;
-  const Real struts1an1p_x = c0 * struts1an0_x + s0 * struts1an0_y;
-  const Real struts1an1p_y = c0 * struts1an0_y - s0 * struts1an0_x;
-  const Real struts1af1_x = q1r2_x * strutad1p_y_2 - (q1r0_x * strutad1p_z_2 + q1r1_x * strutad1p_x_2);
-  const Real struts1am_y = Real(0.2) * struts1af1_x - (Real(0.01) * struts1af1_z + (q1r2_y * struts1an1p_y +
-      (q1r0_y * struts1an0_z - q1r1_y * struts1an1p_x)));
+  const Real struts1an1p_x = c0 * struts1an0_x - s0 * struts1an0_y;
+  const Real struts1an1p_y = c0 * struts1an0_y + s0 * struts1an0_x;
+  const Real struts1af1_x = q1r2_x * strutad1p_y_2 - (q1r0_x * strutad1p_z_2 - q1r1_x * strutad1p_x_2);
+  const Real struts1am_y = q1r2_y * struts1an1p_y + (q1r1_y * struts1an1p_x + (q1r0_y * struts1an0_z +
+      (Real(0.01) * struts1af1_z - Real(0.2) * struts1af1_x)));
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
   const Real tie_rods0bf0_y = tie_rodd_z * Real(3.123475237772121);
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
@@ -1373,34 +1369,33 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y + (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
   const Real tie_rods0bm_y = Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x;
   const Real derivative = s * model.c2;
-  const Real tie_rods0at = tie_rods0bf0_x * derivative;
-  const Real t294 = Real(1.0) / struts0am_y;
-  const Real t295 = struts1am_y * t294;
-  const Real t307 = struts0am_z_2 * t295 - (Real(0.03) * struts1af1_x - (Real(0.01) * struts1af1_y - (q1r2_z *
-      struts1an1p_y - (q1r0_z * struts1an0_z + q1r1_z * struts1an1p_x))));
-  const Real t308 = tie_rods0bm_y * t294;
-  const Real t313 = Real(1.0) / (struts0am_x * t295 - (Real(0.03) * struts1af1_z - (Real(0.2) * struts1af1_y +
-      (q1r2_x * struts1an1p_y - (q1r0_x * struts1an0_z - q1r1_x * struts1an1p_x)))));
-  const Real t314 = (struts0am_x * t308 - (Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z)) * t313;
-  const Real t319 = Real(1.0) / (t307 * t314 - (struts0am_z_2 * t308 - (Real(0.14) * tie_rods0bf1_y -
+  const Real t293 = Real(1.0) / struts0am_y;
+  const Real t294 = struts1am_y * t293;
+  const Real t306 = struts0am_z_2 * t294 - (q1r2_z * struts1an1p_y + (q1r1_z * struts1an1p_x - (q1r0_z *
+      struts1an0_z + (Real(0.01) * struts1af1_y - Real(0.03) * struts1af1_x))));
+  const Real t307 = tie_rods0bm_y * t293;
+  const Real t312 = Real(1.0) / (struts0am_x * t294 - (q1r2_x * struts1an1p_y - (q1r1_x * struts1an1p_x +
+      (q1r0_x * struts1an0_z - (Real(0.2) * struts1af1_y - Real(0.03) * struts1af1_z)))));
+  const Real t313 = (struts0am_x * t307 - (Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z)) * t312;
+  const Real t318 = Real(1.0) / (t306 * t313 - (struts0am_z_2 * t307 + (Real(0.14) * tie_rods0bf1_y -
       Real(0.02) * tie_rods0bf1_x)));
-  const Real t323 = struts0am_z * t295 - (strutax1_y * strutad1_x_2 + (struts1an0_z - strutax1_x *
-      strutad1_y_2));
-  const Real t329 = t319 * (t314 * t323 - (struts0am_z * t308 - (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y
+  const Real t322 = struts0am_z * t294 + (struts1an0_z - (strutax1_x * strutad1_y_2 + strutax1_y *
+      strutad1_x_2));
+  const Real t328 = t318 * (t313 * t322 - (struts0am_z * t307 - (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y
       * tie_rods0bf0_x)));
-  const Real t332 = t313 * (t323 - t307 * t329);
-  const Real t337 = t294 * (struts0am_z_2 * t329 - (struts0am_z - struts0am_x * t332));
-  const Real t342 = tie_rods0at * t319;
-  const Real t344 = t313 * (t307 * t342);
-  const Real t349 = t332 * state.z[0] + t344;
-  const Real t350 = t337 * state.z[0] + t294 * (struts0am_x * t344 - struts0am_z_2 * t342);
-  const Real t351 = t329 * state.z[0] - t342;
-  const Real strutam1t_x = Real(0.2) * t350 - Real(0.03) * t351;
-  const Real strutam1t_y = Real(0.01) * t351 + Real(0.2) * t349;
+  const Real t331 = t312 * (t322 - t306 * t328);
+  const Real t336 = t293 * (struts0am_x * t331 - (struts0am_z - struts0am_z_2 * t328));
+  const Real t342 = t318 * (tie_rods0bf0_x * derivative);
+  const Real t344 = t342 * (t306 * t312);
+  const Real t349 = t331 * state.z[0] + t344;
+  const Real t350 = t336 * state.z[0] + t293 * (struts0am_x * t344 - struts0am_z_2 * t342);
+  const Real t351 = t328 * state.z[0] - t342;
+  const Real strutam1t_x = Real(0.2) * t350 + Real(0.03) * t351;
+  const Real strutam1t_y = Real(0.01) * t351 - Real(0.2) * t349;
   const Real strutam1t_z = Real(0.01) * t350 + Real(0.03) * t349;
-  const Real strutam1vpp_x = q1r1_z * strutam1t_z + (q1r1_x * strutam1t_x - q1r1_y * strutam1t_y);
-  const Real strutam1vpp_y = q1r2_z * strutam1t_z - (q1r2_x * strutam1t_x + q1r2_y * strutam1t_y);
-  const Real strutam1vpp_z = q1r0_z * strutam1t_z - (q1r0_x * strutam1t_x - q1r0_y * strutam1t_y);
+  const Real strutam1vpp_x = q1r1_z * strutam1t_z + (q1r1_x * strutam1t_x + q1r1_y * strutam1t_y);
+  const Real strutam1vpp_y = q1r2_z * strutam1t_z - (q1r2_x * strutam1t_x - q1r2_y * strutam1t_y);
+  const Real strutam1vpp_z = q1r0_z * strutam1t_z - (q1r0_x * strutam1t_x + q1r0_y * strutam1t_y);
   const Real strutam1vp_x = c0 * strutam1vpp_x + s0 * strutam1vpp_y;
   const Real strutam1vp_y = c0 * strutam1vpp_y - s0 * strutam1vpp_x;
   const Real strutam0t_x = strutax1_y * state.z[0];
@@ -1410,9 +1405,9 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real strutad1t_x = Real(0.35112344158839165) * t351;
   const Real strutad1t_y = Real(0.9363291775690445) * t351;
   const Real strutad1t_z = Real(0.35112344158839165) * t349 - Real(0.9363291775690445) * t350;
-  const Real strutad1vpp_x = q1r1_z * strutad1t_z - (q1r1_x * strutad1t_x - q1r1_y * strutad1t_y);
-  const Real strutad1vpp_y = q1r2_z * strutad1t_z + (q1r2_x * strutad1t_x + q1r2_y * strutad1t_y);
-  const Real strutad1vpp_z = q1r0_z * strutad1t_z + (q1r0_x * strutad1t_x - q1r0_y * strutad1t_y);
+  const Real strutad1vpp_x = q1r1_z * strutad1t_z + (q1r1_x * strutad1t_x - q1r1_y * strutad1t_y);
+  const Real strutad1vpp_y = q1r2_z * strutad1t_z - (q1r2_x * strutad1t_x + q1r2_y * strutad1t_y);
+  const Real strutad1vpp_z = q1r0_z * strutad1t_z - (q1r0_x * strutad1t_x - q1r0_y * strutad1t_y);
   const Real strutad1vp_x = c0 * strutad1vpp_x + s0 * strutad1vpp_y;
   const Real strutad1vp_y = c0 * strutad1vpp_y - s0 * strutad1vpp_x;
   const Real strutad0t_x = strutad1_y * state.z[0];
@@ -1420,86 +1415,85 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real strutad0v_x = strutad1vp_x - strutad0t_x;
   const Real strutad0v_y = strutad1vp_y + strutad0t_y;
   const Real strutam1a_x = t350 * strutam1t_z + t351 * strutam1t_y;
-  const Real strutam1a_y = t349 * strutam1t_z - t351 * strutam1t_x;
-  const Real strutam1a_z = t349 * strutam1t_y + t350 * strutam1t_x;
-  const Real strutam1app_x = q1r1_z * strutam1a_z - (q1r1_x * strutam1a_x - q1r1_y * strutam1a_y);
-  const Real strutam1app_y = q1r2_z * strutam1a_z + (q1r2_x * strutam1a_x + q1r2_y * strutam1a_y);
-  const Real strutam1app_z = q1r0_z * strutam1a_z + (q1r0_x * strutam1a_x - q1r0_y * strutam1a_y);
+  const Real strutam1a_y = t349 * strutam1t_z + t351 * strutam1t_x;
+  const Real strutam1a_z = t349 * strutam1t_y - t350 * strutam1t_x;
+  const Real strutam1app_x = q1r1_z * strutam1a_z + (q1r1_x * strutam1a_x - q1r1_y * strutam1a_y);
+  const Real strutam1app_y = q1r2_z * strutam1a_z - (q1r2_x * strutam1a_x + q1r2_y * strutam1a_y);
+  const Real strutam1app_z = q1r0_z * strutam1a_z - (q1r0_x * strutam1a_x - q1r0_y * strutam1a_y);
   const Real strutam0b_x = strutam1vp_x + strutam0v_x;
   const Real strutam0b_y = strutam1vp_y + strutam0v_y;
-  const Real strutam0a_x = state.z[0] * strutam0b_y + (c0 * strutam1app_x + s0 * strutam1app_y);
-  const Real strutam0a_y = state.z[0] * strutam0b_x - (c0 * strutam1app_y - s0 * strutam1app_x);
+  const Real strutam0a_x = state.z[0] * strutam0b_y - (c0 * strutam1app_x + s0 * strutam1app_y);
+  const Real strutam0a_y = state.z[0] * strutam0b_x + (c0 * strutam1app_y - s0 * strutam1app_x);
   const Real strutad1a_x = t350 * strutad1t_z - t351 * strutad1t_y;
   const Real strutad1a_y = t349 * strutad1t_z + t351 * strutad1t_x;
   const Real strutad1a_z = t349 * strutad1t_y + t350 * strutad1t_x;
-  const Real strutad1app_x = q1r1_z * strutad1a_z + (q1r1_x * strutad1a_x - q1r1_y * strutad1a_y);
-  const Real strutad1app_y = q1r2_z * strutad1a_z - (q1r2_x * strutad1a_x + q1r2_y * strutad1a_y);
-  const Real strutad1app_z = q1r0_z * strutad1a_z - (q1r0_x * strutad1a_x - q1r0_y * strutad1a_y);
+  const Real strutad1app_x = q1r1_y * strutad1a_y - (q1r1_x * strutad1a_x - q1r1_z * strutad1a_z);
+  const Real strutad1app_y = q1r2_y * strutad1a_y + (q1r2_x * strutad1a_x + q1r2_z * strutad1a_z);
+  const Real strutad1app_z = q1r0_y * strutad1a_y - (q1r0_x * strutad1a_x + q1r0_z * strutad1a_z);
   const Real strutad0b_x = strutad1vp_x + strutad0v_x;
   const Real strutad0b_y = strutad1vp_y + strutad0v_y;
-  const Real strutad0a_x = state.z[0] * strutad0b_y - (c0 * strutad1app_x + s0 * strutad1app_y);
-  const Real strutad0a_y = state.z[0] * strutad0b_x + (c0 * strutad1app_y - s0 * strutad1app_x);
-  const Real bias_strut = Real(2.0) * (strutam0v_y * strutad0v_y + (strutam1vpp_z * strutad1vpp_z +
-      strutam0v_x * strutad0v_x)) + (strutd_z * strutad0a_y - (strutd_y * strutad0a_x + (strutd_x *
-      strutad1app_z - (strutad1_y * strutam0a_y + (strutad1p_z * strutam1app_z - strutad1_x *
-      strutam0a_x)))));
-  const Real strutad1t_x_2 = Real(0.2088879845220991) * t350 + Real(0.9156733568092016) * t351;
-  const Real strutad1t_y_2 = Real(0.3433775088034506) * t351 - Real(0.2088879845220991) * t349;
+  const Real strutad0a_x = state.z[0] * strutad0b_y + (c0 * strutad1app_x + s0 * strutad1app_y);
+  const Real strutad0a_y = state.z[0] * strutad0b_x - (c0 * strutad1app_y - s0 * strutad1app_x);
+  const Real bias_strut = strutad1_y * strutam0a_y + Real(2.0) * (strutam0v_y * strutad0v_y + (strutam1vpp_z *
+      strutad1vpp_z + strutam0v_x * strutad0v_x)) - (strutd_y * strutad0a_x + (strutad1p_z * strutam1app_z -
+      strutd_x * strutad1app_z) + (strutad1_x * strutam0a_x - strutd_z * strutad0a_y));
+  const Real strutad1t_x_2 = Real(0.2088879845220991) * t350 - Real(0.9156733568092016) * t351;
+  const Real strutad1t_y_2 = Real(0.3433775088034506) * t351 + Real(0.2088879845220991) * t349;
   const Real strutad1t_z_2 = Real(0.3433775088034506) * t350 + Real(0.9156733568092016) * t349;
-  const Real strutad1vpp_x_2 = q1r1_z * strutad1t_z_2 - (q1r1_x * strutad1t_x_2 + q1r1_y * strutad1t_y_2);
-  const Real strutad1vpp_y_2 = q1r2_z * strutad1t_z_2 + (q1r2_x * strutad1t_x_2 - q1r2_y * strutad1t_y_2);
-  const Real strutad1vpp_z_2 = q1r0_z * strutad1t_z_2 + (q1r0_x * strutad1t_x_2 + q1r0_y * strutad1t_y_2);
+  const Real strutad1vpp_x_2 = q1r1_z * strutad1t_z_2 - (q1r1_x * strutad1t_x_2 - q1r1_y * strutad1t_y_2);
+  const Real strutad1vpp_y_2 = q1r2_z * strutad1t_z_2 + (q1r2_x * strutad1t_x_2 + q1r2_y * strutad1t_y_2);
+  const Real strutad1vpp_z_2 = q1r0_z * strutad1t_z_2 + (q1r0_x * strutad1t_x_2 - q1r0_y * strutad1t_y_2);
   const Real strutad1vp_x_2 = c0 * strutad1vpp_x_2 + s0 * strutad1vpp_y_2;
   const Real strutad1vp_y_2 = c0 * strutad1vpp_y_2 - s0 * strutad1vpp_x_2;
   const Real strutad0t_x_2 = strutad1_y_2 * state.z[0];
   const Real strutad0t_y_2 = strutad1_x_2 * state.z[0];
-  const Real strutad0v_x_2 = strutad1vp_x_2 - strutad0t_x_2;
+  const Real strutad0v_x_2 = strutad1vp_x_2 + strutad0t_x_2;
   const Real strutad0v_y_2 = strutad1vp_y_2 + strutad0t_y_2;
   const Real strutad1a_x_2 = t350 * strutad1t_z_2 + t351 * strutad1t_y_2;
-  const Real strutad1a_y_2 = t349 * strutad1t_z_2 + t351 * strutad1t_x_2;
-  const Real strutad1a_z_2 = t349 * strutad1t_y_2 - t350 * strutad1t_x_2;
-  const Real strutad1app_x_2 = q1r1_z * strutad1a_z_2 - (q1r1_x * strutad1a_x_2 - q1r1_y * strutad1a_y_2);
-  const Real strutad1app_y_2 = q1r2_z * strutad1a_z_2 + (q1r2_x * strutad1a_x_2 + q1r2_y * strutad1a_y_2);
-  const Real strutad1app_z_2 = q1r0_z * strutad1a_z_2 + (q1r0_x * strutad1a_x_2 - q1r0_y * strutad1a_y_2);
+  const Real strutad1a_y_2 = t349 * strutad1t_z_2 - t351 * strutad1t_x_2;
+  const Real strutad1a_z_2 = t349 * strutad1t_y_2 + t350 * strutad1t_x_2;
+  const Real strutad1app_x_2 = q1r1_z * strutad1a_z_2 + (q1r1_x * strutad1a_x_2 - q1r1_y * strutad1a_y_2);
+  const Real strutad1app_y_2 = q1r2_z * strutad1a_z_2 - (q1r2_x * strutad1a_x_2 + q1r2_y * strutad1a_y_2);
+  const Real strutad1app_z_2 = q1r0_z * strutad1a_z_2 - (q1r0_x * strutad1a_x_2 - q1r0_y * strutad1a_y_2);
   const Real strutad0b_x_2 = strutad1vp_x_2 + strutad0v_x_2;
   const Real strutad0b_y_2 = strutad1vp_y_2 + strutad0v_y_2;
-  const Real strutad0a_x_2 = state.z[0] * strutad0b_y_2 + (c0 * strutad1app_x_2 + s0 * strutad1app_y_2);
-  const Real strutad0a_y_2 = state.z[0] * strutad0b_x_2 - (c0 * strutad1app_y_2 - s0 * strutad1app_x_2);
-  const Real tie_rodbm1t_x = Real(0.07) * t350 - Real(0.02) * t351;
-  const Real tie_rodbm1t_y = Real(0.14) * t351 + Real(0.07) * t349;
+  const Real strutad0a_x_2 = state.z[0] * strutad0b_y_2 - (c0 * strutad1app_x_2 + s0 * strutad1app_y_2);
+  const Real strutad0a_y_2 = state.z[0] * strutad0b_x_2 + (c0 * strutad1app_y_2 - s0 * strutad1app_x_2);
+  const Real tie_rodbm1t_x = Real(0.07) * t350 + Real(0.02) * t351;
+  const Real tie_rodbm1t_y = Real(0.14) * t351 - Real(0.07) * t349;
   const Real tie_rodbm1t_z = Real(0.14) * t350 + Real(0.02) * t349;
-  const Real tie_rodbm1vpp_x = q1r1_z * tie_rodbm1t_z + (q1r1_x * tie_rodbm1t_x - q1r1_y * tie_rodbm1t_y);
-  const Real tie_rodbm1vpp_y = q1r2_z * tie_rodbm1t_z - (q1r2_x * tie_rodbm1t_x + q1r2_y * tie_rodbm1t_y);
-  const Real tie_rodbm1vpp_z = q1r0_z * tie_rodbm1t_z - (q1r0_x * tie_rodbm1t_x - q1r0_y * tie_rodbm1t_y);
+  const Real tie_rodbm1vpp_x = q1r1_z * tie_rodbm1t_z + (q1r1_x * tie_rodbm1t_x + q1r1_y * tie_rodbm1t_y);
+  const Real tie_rodbm1vpp_y = q1r2_z * tie_rodbm1t_z - (q1r2_x * tie_rodbm1t_x - q1r2_y * tie_rodbm1t_y);
+  const Real tie_rodbm1vpp_z = q1r0_z * tie_rodbm1t_z - (q1r0_x * tie_rodbm1t_x + q1r0_y * tie_rodbm1t_y);
   const Real tie_rodbm1vp_x = c0 * tie_rodbm1vpp_x + s0 * tie_rodbm1vpp_y;
   const Real tie_rodbm1vp_y = c0 * tie_rodbm1vpp_y - s0 * tie_rodbm1vpp_x;
   const Real tie_rodbm0t_x = tie_rodbx1_y * state.z[0];
   const Real tie_rodbm0t_y = tie_rodbx1_x * state.z[0];
   const Real tie_rodbm0v_y = tie_rodbm1vp_y + tie_rodbm0t_y;
-  const Real tie_roddv_y = tie_rodbm0t_x - (derivative + tie_rodbm1vp_x);
+  const Real tie_roddv_y = tie_rodbm1vp_x + (derivative - tie_rodbm0t_x);
   const Real derivative_2 = c * model.c3;
   const Real tie_rodbm1a_x = t350 * tie_rodbm1t_z + t351 * tie_rodbm1t_y;
-  const Real tie_rodbm1a_y = t349 * tie_rodbm1t_z - t351 * tie_rodbm1t_x;
-  const Real tie_rodbm1a_z = t349 * tie_rodbm1t_y + t350 * tie_rodbm1t_x;
-  const Real tie_rodbm1app_x = q1r1_z * tie_rodbm1a_z - (q1r1_x * tie_rodbm1a_x - q1r1_y * tie_rodbm1a_y);
-  const Real tie_rodbm1app_y = q1r2_z * tie_rodbm1a_z + (q1r2_x * tie_rodbm1a_x + q1r2_y * tie_rodbm1a_y);
-  const Real tie_rodbm1app_z = q1r0_z * tie_rodbm1a_z + (q1r0_x * tie_rodbm1a_x - q1r0_y * tie_rodbm1a_y);
+  const Real tie_rodbm1a_y = t349 * tie_rodbm1t_z + t351 * tie_rodbm1t_x;
+  const Real tie_rodbm1a_z = t349 * tie_rodbm1t_y - t350 * tie_rodbm1t_x;
+  const Real tie_rodbm1app_x = q1r1_z * tie_rodbm1a_z + (q1r1_x * tie_rodbm1a_x - q1r1_y * tie_rodbm1a_y);
+  const Real tie_rodbm1app_y = q1r2_z * tie_rodbm1a_z - (q1r2_x * tie_rodbm1a_x + q1r2_y * tie_rodbm1a_y);
+  const Real tie_rodbm1app_z = q1r0_z * tie_rodbm1a_z - (q1r0_x * tie_rodbm1a_x - q1r0_y * tie_rodbm1a_y);
   const Real tie_rodbm0b_x = tie_rodbm0t_x - Real(2.0) * tie_rodbm1vp_x;
   const Real tie_rodbm0b_y = tie_rodbm1vp_y + tie_rodbm0v_y;
-  const Real tie_rodbm0a_y = state.z[0] * tie_rodbm0b_x + (c0 * tie_rodbm1app_y - s0 * tie_rodbm1app_x);
-  const Real tie_rodda_y = state.z[0] * tie_rodbm0b_y + (s0 * tie_rodbm1app_y + (derivative_2 + c0 *
+  const Real tie_rodbm0a_y = state.z[0] * tie_rodbm0b_x - (c0 * tie_rodbm1app_y - s0 * tie_rodbm1app_x);
+  const Real tie_rodda_y = state.z[0] * tie_rodbm0b_y - (s0 * tie_rodbm1app_y - (derivative_2 - c0 *
       tie_rodbm1app_x));
-  const Real t676 = Real(2.0) * (strutam0v_y * strutad0v_y_2 + (strutam1vpp_z * strutad1vpp_z_2 + strutam0v_x
-      * strutad0v_x_2)) - (t295 * bias_strut - (strutd_z * strutad0a_y_2 - (strutd_y * strutad0a_x_2 -
-      (strutd_x * strutad1app_z_2 + (strutad1_y_2 * strutam0a_y + (strutad1p_z_2 * strutam1app_z -
-      strutad1_x_2 * strutam0a_x))))));
-  const Real t687 = t319 * (Real(3.123475237772121) * (tie_rodd_y * tie_rodda_y - (tie_rodd_z * tie_rodbm0a_y
-      + (tie_rodd_x * tie_rodbm1app_z - (tie_roddv_y * tie_roddv_y + (tie_rodbm1vpp_z * tie_rodbm1vpp_z +
-      tie_rodbm0v_y * tie_rodbm0v_y))))) + (t308 * bias_strut + t314 * t676));
-  const Real t690 = t313 * (t676 - t307 * t687);
-  const Real t698 = t690 - t332 * zdot[0];
-  const Real t700 = t294 * (struts0am_z_2 * t687 + (bias_strut + struts0am_x * t690)) - t337 * zdot[0];
-  const Real t702 = t687 - t329 * zdot[0];
+  const Real t676 = t294 * bias_strut - (strutd_z * strutad0a_y_2 + Real(2.0) * (strutam0v_y * strutad0v_y_2 +
+      (strutam1vpp_z * strutad1vpp_z_2 + strutam0v_x * strutad0v_x_2)) - (strutad1_x_2 * strutam0a_x -
+      (strutad1p_z_2 * strutam1app_z + strutd_x * strutad1app_z_2) + (strutad1_y_2 * strutam0a_y + strutd_y *
+      strutad0a_x_2)));
+  const Real t687 = t318 * (t313 * t676 - (t307 * bias_strut + Real(3.123475237772121) * (tie_rodd_y *
+      tie_rodda_y - (tie_rodd_z * tie_rodbm0a_y - (tie_rodbm1vpp_z * tie_rodbm1vpp_z + tie_rodd_x *
+      tie_rodbm1app_z + (tie_rodbm0v_y * tie_rodbm0v_y + tie_roddv_y * tie_roddv_y))))));
+  const Real t690 = t312 * (t676 - t306 * t687);
+  const Real t698 = t690 + t331 * zdot[0];
+  const Real t700 = t293 * (struts0am_x * t690 - (bias_strut - struts0am_z_2 * t687)) + t336 * zdot[0];
+  const Real t702 = t687 + t328 * zdot[0];
   const Real h1at1_x = q1r1_y * Real(1.14) - q1r1_z * Real(6.08);
   const Real h1at1_y = q1r2_y * Real(1.14) - q1r2_z * Real(6.08);
   const Real S1at1r0_y = q1r1_z * Real(0.1824) - q1r1_y * Real(0.3842000000000001);
@@ -1508,17 +1502,17 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real S1at1r1_z = q1r2_z * Real(2.2228) - q1r2_y * Real(0.1824);
   const Real h1c_x = h1at1_x - Real(13.770000000000001);
   const Real h1c_y = h1at1_y - Real(0.76);
-  const Real S0b_zz = (q1r1_x * q1r1_x + q1r2_x * q1r2_x) * Real(0.6499999999999999) - (q1r1_y * S1at1r0_y -
-      (q1r1_z * S1at1r0_z - (h1at1_x * Real(0.68) + (q1r2_y * S1at1r1_y - (q1r2_z * S1at1r1_z - h1at1_y *
-      Real(0.04))))) - Real(4.612500000000001));
+  const Real S0b_zz = (q1r1_x * q1r1_x + q1r2_x * q1r2_x) * Real(0.6499999999999999) + Real(4.612500000000001)
+      - (q1r1_y * S1at1r0_y - q1r1_z * S1at1r0_z) - (q1r2_y * S1at1r1_y - q1r2_z * S1at1r1_z + (h1at1_x *
+      Real(0.68) + h1at1_y * Real(0.04)));
   const Real h0b_x = c0 * h1c_x + s0 * h1c_y;
   const Real w1p_x = q1r0_x * state.z[0];
   const Real w1p_y = q1r0_y * state.z[0];
   const Real w1p_z = q1r0_z * state.z[0];
-  const Real spring_damper_ll = strutd_z * strutd_z + (strutd_x * strutd_x + strutd_y * strutd_y) +
-      Real(1e-18);
+  const Real spring_damper_ll = strutd_z * strutd_z + (strutd_y * strutd_y + (strutd_x * strutd_x +
+      Real(1e-18)));
   const Real spring_damper_l = detail::square_root(spring_damper_ll);
-  const Real spring_damper_rate = (strutd_z * strutam0v_y - (strutd_x * strutam1vpp_z - strutd_y *
+  const Real spring_damper_rate = (strutd_z * strutam0v_y + (strutd_x * strutam1vpp_z + strutd_y *
       strutam0v_x)) / spring_damper_l;
   const Real spring_damper_e = spring_damper_l - model.free_length;
   const Real spring_damper_T = spring_damper_e * model.stiffness - spring_damper_rate * model.damping;
@@ -1528,15 +1522,15 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real spring_damperf_z = strutd_z * spring_damper_Tl;
   const Real spring_damperfb1p_x = c0 * spring_damperf_y - s0 * spring_damperf_z;
   const Real spring_damperfb1p_y = c0 * spring_damperf_z + s0 * spring_damperf_y;
-  const Real spring_damperfb1_x = q1r2_x * spring_damperfb1p_y - (q1r0_x * spring_damperf_x + q1r1_x *
+  const Real spring_damperfb1_x = q1r2_x * spring_damperfb1p_y + (q1r0_x * spring_damperf_x - q1r1_x *
       spring_damperfb1p_x);
-  const Real spring_damperfb1_y = q1r2_y * spring_damperfb1p_y + (q1r0_y * spring_damperf_x + q1r1_y *
+  const Real spring_damperfb1_y = q1r2_y * spring_damperfb1p_y - (q1r0_y * spring_damperf_x - q1r1_y *
       spring_damperfb1p_x);
-  const Real spring_damperfb1_z = q1r2_z * spring_damperfb1p_y - (q1r0_z * spring_damperf_x - q1r1_z *
+  const Real spring_damperfb1_z = q1r2_z * spring_damperfb1p_y + (q1r0_z * spring_damperf_x + q1r1_z *
       spring_damperfb1p_x);
   const Real wheel_centerx1p_x = q1r1_y * Real(0.06) + (t35 - q1r1_z * Real(0.12));
-  const Real wheel_centerx1p_y = q1r2_y * Real(0.06) - (t44 + q1r2_z * Real(0.12));
-  const Real expression_4 = c0 * wheel_centerx1p_y - s0 * wheel_centerx1p_x - Real(0.11750000000000002);
+  const Real wheel_centerx1p_y = q1r2_z * Real(0.12) + (t44 - q1r2_y * Real(0.06));
+  const Real expression_4 = s0 * wheel_centerx1p_x + (c0 * wheel_centerx1p_y + Real(0.11750000000000002));
   const Real expression_5 = expression_4 * model.tyre;
   const Real tyre_forcef1p_x = s0 * expression_5;
   const Real tyre_forcef1p_y = c0 * expression_5;
@@ -1545,48 +1539,50 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real tyre_forcef1_z = q1r1_z * tyre_forcef1p_x - q1r2_z * tyre_forcef1p_y;
   const Real aQp0 = h0b_x * Real(9.81);
   const Real adn0_z = zdot[0] * S0b_zz;
-  const Real aal1_x = q1r0_x * zdot[0];
   const Real aal1_y = q1r0_y * zdot[0];
   const Real aal1_z = q1r0_z * zdot[0];
   const Real aL0a_x = s0 * Real(9.81);
   const Real aL0a_y = c0 * Real(9.81);
   const Real aL0w22 = state.z[0] * state.z[0];
-  const Real aa1o_x = Real(0.34) * aL0w22 - (aL0a_x + Real(0.02) * zdot[0]);
-  const Real aa1o_y = Real(0.34) * zdot[0] + (aL0a_y + Real(0.02) * aL0w22);
-  const Real aa1_x = q1r1_x * aa1o_x - q1r2_x * aa1o_y;
-  const Real aa1_y = q1r1_y * aa1o_x + q1r2_y * aa1o_y;
-  const Real aa1_z = q1r1_z * aa1o_x + q1r2_z * aa1o_y;
+  const Real aa1o_x = aL0a_x + (Real(0.02) * zdot[0] - Real(0.34) * aL0w22);
+  const Real aa1o_y = aL0a_y + (Real(0.02) * aL0w22 + Real(0.34) * zdot[0]);
+  const Real aa1_x = q1r1_x * aa1o_x + q1r2_x * aa1o_y;
+  const Real aa1_y = q1r1_y * aa1o_x - q1r2_y * aa1o_y;
+  const Real aa1_z = q1r1_z * aa1o_x - q1r2_z * aa1o_y;
   const Real aK1_x = Real(0.6499999999999999) * w1p_x;
   const Real aK1_y = Real(0.1824) * w1p_z + Real(0.3842000000000001) * w1p_y;
   const Real aK1_z = Real(2.2228) * w1p_z + Real(0.1824) * w1p_y;
   const Real au1_x = t349 - Real(2.0) * w1p_x;
   const Real au1_y = t350 - Real(2.0) * w1p_y;
-  const Real au1_z = t351 + Real(2.0) * w1p_z;
+  const Real au1_z = t351 - Real(2.0) * w1p_z;
   const Real aSu1_x = Real(0.6499999999999999) * au1_x;
-  const Real aSu1_y = Real(0.1824) * au1_z - Real(0.3842000000000001) * au1_y;
-  const Real aSu1_z = Real(2.2228) * au1_z - Real(0.1824) * au1_y;
-  const Real auh1 = Real(1.14) * au1_y - Real(6.08) * au1_z;
-  const Real auw1 = t351 * au1_z + (t349 * au1_x + t350 * au1_y);
-  const Real aef1_x = t349 * auh1 - (t700 * Real(6.08) + (tyre_forcef1_x + t702 * Real(1.14)));
-  const Real aef1_y = t350 * auh1 + (t698 * Real(6.08) - (tyre_forcef1_y + Real(1.14) * auw1));
-  const Real aef1_z = t351 * auh1 + (Real(6.08) * auw1 - (tyre_forcef1_z - t698 * Real(1.14)));
-  const Real aen1_x = t351 * aSu1_y + (t350 * aSu1_z - (t698 * Real(2.607) - (Real(0.12) * tyre_forcef1_y +
+  const Real aSu1_y = Real(0.1824) * au1_z + Real(0.3842000000000001) * au1_y;
+  const Real aSu1_z = Real(2.2228) * au1_z + Real(0.1824) * au1_y;
+  const Real auh1 = Real(1.14) * au1_y + Real(6.08) * au1_z;
+  const Real auw1 = t350 * au1_y + (t349 * au1_x + t351 * au1_z);
+  const Real aef1_x = t700 * Real(6.08) - (t702 * Real(1.14) - (tyre_forcef1_x + t349 * auh1));
+  const Real aef1_y = t698 * Real(6.08) - (t350 * auh1 + (tyre_forcef1_y - Real(1.14) * auw1));
+  const Real aef1_z = t698 * Real(1.14) + (t351 * auh1 - (tyre_forcef1_z + Real(6.08) * auw1));
+  const Real aen1_x = t698 * Real(2.607) + (t351 * aSu1_y - (t350 * aSu1_z + (Real(0.12) * tyre_forcef1_y +
       Real(0.06) * tyre_forcef1_z)));
-  const Real aen1_y = t351 * aSu1_x - (t349 * aSu1_z + (t702 * Real(0.1824) + (t700 * Real(2.8728) +
+  const Real aen1_y = t700 * Real(2.8728) - (t702 * Real(0.1824) - (t349 * aSu1_z - (t351 * aSu1_x -
       (Real(0.01) * tyre_forcef1_z + Real(0.12) * tyre_forcef1_x))));
-  const Real aen1_z = t350 * aSu1_x + (t349 * aSu1_y + (t700 * Real(0.1824) + (t702 * Real(1.0342) -
+  const Real aen1_z = t700 * Real(0.1824) - (t702 * Real(1.0342) - (t349 * aSu1_y - (t350 * aSu1_x +
       (Real(0.01) * tyre_forcef1_y - Real(0.06) * tyre_forcef1_x))));
-  const Real af1p_x = q1r1_z * aef1_z + (q1r1_x * aef1_x + q1r1_y * aef1_y);
-  const Real af1p_y = q1r2_z * aef1_z - (q1r2_x * aef1_x - q1r2_y * aef1_y);
-  const Real tau_1_0 = aen1_x + (w1p_z * aK1_y - (w1p_y * aK1_z + (Real(6.08) * aa1_y + (aal1_x * Real(2.607)
-      + (Real(1.14) * aa1_z - (Real(0.2) * spring_damperfb1_y - Real(0.03) * spring_damperfb1_z))))));
-  const Real tau_1_1 = aen1_y - (w1p_z * aK1_x - (w1p_x * aK1_z + (Real(6.08) * aa1_x + (Real(0.1824) * aal1_z
-      - (aal1_y * Real(2.8728) + (Real(0.01) * spring_damperfb1_z - Real(0.2) * spring_damperfb1_x))))));
-  const Real tau_1_2 = aen1_z + (w1p_y * aK1_x - (w1p_x * aK1_y - (Real(0.1824) * aal1_y - (Real(1.14) * aa1_x
-      + (aal1_z * Real(1.0342) + (Real(0.01) * spring_damperfb1_y - Real(0.03) * spring_damperfb1_x))))));
-  tau[0] = -(t329 * tau_1_2 - (t337 * tau_1_1 + (t332 * tau_1_0 + (Real(0.34) * af1p_y - (Real(0.02) * af1p_x
-      + (q1r0_z * aen1_z + (q1r0_y * aen1_y + (q1r0_x * aen1_x - (adn0_z - (aQp0 + (strutax1_x *
-      spring_damperf_z - strutax1_y * spring_damperf_y)))))))))));
+  const Real af1p_x = q1r1_x * aef1_x - (q1r1_y * aef1_y + q1r1_z * aef1_z);
+  const Real af1p_y = q1r2_x * aef1_x + (q1r2_y * aef1_y + q1r2_z * aef1_z);
+  const Real tau_1_0 = aen1_x + (Real(6.08) * aa1_y + (Real(1.14) * aa1_z + (w1p_z * aK1_y - (q1r0_x *
+      (zdot[0] * Real(2.607)) + w1p_y * aK1_z)))) + (Real(0.2) * spring_damperfb1_y - Real(0.03) *
+      spring_damperfb1_z);
+  const Real tau_1_1 = aen1_y + (Real(0.2) * spring_damperfb1_x - (Real(0.01) * spring_damperfb1_z +
+      (Real(6.08) * aa1_x + (w1p_z * aK1_x - (w1p_x * aK1_z - (aal1_y * Real(2.8728) - Real(0.1824) *
+      aal1_z))))));
+  const Real tau_1_2 = aen1_z - (Real(0.03) * spring_damperfb1_x - (Real(0.01) * spring_damperfb1_y -
+      (Real(1.14) * aa1_x + (w1p_y * aK1_x - (w1p_x * aK1_y + (aal1_z * Real(1.0342) - Real(0.1824) *
+      aal1_y))))));
+  tau[0] = -(Real(0.02) * af1p_x + Real(0.34) * af1p_y - (t336 * tau_1_1 - t328 * tau_1_2 - (q1r0_y * aen1_y +
+      (q1r0_x * aen1_x - (strutax1_y * spring_damperf_y - (strutax1_x * spring_damperf_z + (aQp0 - adn0_z))))
+      - (q1r0_z * aen1_z + t331 * tau_1_0))));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -1605,7 +1601,7 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real q101 = q1d1 * state.y[1];
   const Real q102 = q1d2 * state.y[1];
   const Real q103 = q1d3 * state.y[1];
-  const Real q1r0_x = q122 + q133 - Real(1.0);
+  const Real q1r0_x = q133 + (q122 - Real(1.0));
   const Real q1r0_y = q112 - q103;
   const Real q1r0_z = q113 + q102;
   const Real q1r1_x = q112 + q103;
@@ -1615,12 +1611,12 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real q1r2_x = q113 - q102;
   const Real q1r2_y = q123 + q101;
   const Real q1r2_z = q122 + t26;
-  const Real strutax1p_x = q1r1_y * Real(0.03) - (q1r1_x * Real(0.01) - q1r1_z * Real(0.2)) + Real(0.34);
-  const Real strutax1p_y = q1r2_y * Real(0.03) + (q1r2_x * Real(0.01) + q1r2_z * Real(0.2)) + Real(0.02);
-  const Real strutax1_x = c0 * strutax1p_x + s0 * strutax1p_y;
-  const Real strutax1_y = c0 * strutax1p_y - s0 * strutax1p_x;
-  const Real strutd_x = q1r0_y * Real(0.03) - (q1r0_x * Real(0.01) + q1r0_z * Real(0.2)) - Real(0.04);
-  const Real strutd_y = strutax1_x - Real(0.22999999999999998);
+  const Real strutax1p_x = q1r1_x * Real(0.01) - Real(0.34) - (q1r1_z * Real(0.2) + q1r1_y * Real(0.03));
+  const Real strutax1p_y = q1r2_x * Real(0.01) + Real(0.02) + (q1r2_z * Real(0.2) + q1r2_y * Real(0.03));
+  const Real strutax1_x = c0 * strutax1p_x - s0 * strutax1p_y;
+  const Real strutax1_y = c0 * strutax1p_y + s0 * strutax1p_x;
+  const Real strutd_x = q1r0_z * Real(0.2) + Real(0.04) + (q1r0_x * Real(0.01) - q1r0_y * Real(0.03));
+  const Real strutd_y = strutax1_x + Real(0.22999999999999998);
   const Real strutd_z = strutax1_y + Real(0.5800000000000001);
   const Real strutad1p_x = q1r1_y * Real(0.35112344158839165) + q1r1_x * Real(0.9363291775690445);
   const Real strutad1p_y = q1r2_y * Real(0.35112344158839165) - q1r2_x * Real(0.9363291775690445);
@@ -1629,49 +1625,49 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real strutad1_y = c0 * strutad1p_y - s0 * strutad1p_x;
   const Real strutad1p_x_2 = q1r1_y * Real(0.9156733568092016) - (q1r1_x * Real(0.3433775088034506) + q1r1_z *
       Real(0.2088879845220991));
-  const Real strutad1p_y_2 = q1r2_y * Real(0.9156733568092016) + (q1r2_x * Real(0.3433775088034506) - q1r2_z *
-      Real(0.2088879845220991));
-  const Real strutad1p_z_2 = q1r0_y * Real(0.9156733568092016) - (q1r0_x * Real(0.3433775088034506) - q1r0_z *
-      Real(0.2088879845220991));
-  const Real strutad1_x_2 = c0 * strutad1p_x_2 + s0 * strutad1p_y_2;
-  const Real strutad1_y_2 = c0 * strutad1p_y_2 - s0 * strutad1p_x_2;
+  const Real strutad1p_y_2 = q1r2_z * Real(0.2088879845220991) - (q1r2_x * Real(0.3433775088034506) + q1r2_y *
+      Real(0.9156733568092016));
+  const Real strutad1p_z_2 = q1r0_x * Real(0.3433775088034506) - (q1r0_z * Real(0.2088879845220991) + q1r0_y *
+      Real(0.9156733568092016));
+  const Real strutad1_x_2 = c0 * strutad1p_x_2 - s0 * strutad1p_y_2;
+  const Real strutad1_y_2 = c0 * strutad1p_y_2 + s0 * strutad1p_x_2;
   const detail::Angle<Real> expression = detail::Angle<Real>(state.t) * model.rate;
   Real s, c;
   detail::sine_cosine(expression, s, c);
   const Real expression_2 = Real(1.0) - c;
   const Real expression_3 = expression_2 * model.c1;
-  const Real tie_rodbx1p_x = q1r1_y * Real(0.02) + (q1r1_z * Real(0.07) + (Real(0.34) - q1r1_x * Real(0.14)));
-  const Real tie_rodbx1p_y = q1r2_y * Real(0.02) + (q1r2_z * Real(0.07) + (Real(0.02) + q1r2_x * Real(0.14)));
+  const Real tie_rodbx1p_x = Real(0.34) - q1r1_x * Real(0.14) + (q1r1_z * Real(0.07) + q1r1_y * Real(0.02));
+  const Real tie_rodbx1p_y = Real(0.02) + q1r2_x * Real(0.14) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02));
   const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
   const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) - q1r0_y * Real(0.02)) + Real(0.14);
+  const Real tie_rodd_x = q1r0_z * Real(0.07) + Real(0.14) + (q1r0_x * Real(0.14) - q1r0_y * Real(0.02));
   const Real tie_rodd_y = expression_3 - tie_rodbx1_x;
   const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
-  const Real struts0an0_z = strutd_y * strutad1_y - strutd_z * strutad1_x;
-  const Real struts0am_z = strutax1_y * strutad1_x + (struts0an0_z - strutax1_x * strutad1_y);
-  const Real struts0af1_y = q1r2_y * strutad1p_y + (q1r0_y * strutad1p_z + q1r1_y * strutad1p_x);
-  const Real struts0af1_z = q1r2_z * strutad1p_y - (q1r0_z * strutad1p_z - q1r1_z * strutad1p_x);
-  const Real struts0an0_x = strutd_x * strutad1_y - strutd_z * strutad1p_z;
+  const Real struts0an0_z = strutd_y * strutad1_y + strutd_z * strutad1_x;
+  const Real struts0am_z = struts0an0_z - (strutax1_x * strutad1_y + strutax1_y * strutad1_x);
+  const Real struts0af1_y = q1r1_y * strutad1p_x + (q1r0_y * strutad1p_z + q1r2_y * strutad1p_y);
+  const Real struts0af1_z = q1r1_z * strutad1p_x - (q1r0_z * strutad1p_z - q1r2_z * strutad1p_y);
+  const Real struts0an0_x = strutd_x * strutad1_y + strutd_z * strutad1p_z;
   const Real struts0an0_y = strutd_x * strutad1_x - strutd_y * strutad1p_z;
   const Real struts0an1p_x = c0 * struts0an0_x + s0 * struts0an0_y;
   const Real struts0an1p_y = c0 * struts0an0_y - s0 * struts0an0_x;
-  const Real struts0am_x = Real(0.03) * struts0af1_z - (Real(0.2) * struts0af1_y + (q1r2_x * struts0an1p_y -
-      (q1r0_x * struts0an0_z - q1r1_x * struts0an1p_x)));
-  const Real struts0af1_x = q1r2_x * strutad1p_y - (q1r0_x * strutad1p_z + q1r1_x * strutad1p_x);
-  const Real struts0am_y = Real(0.2) * struts0af1_x - (Real(0.01) * struts0af1_z + (q1r2_y * struts0an1p_y +
-      (q1r0_y * struts0an0_z - q1r1_y * struts0an1p_x)));
-  const Real struts0am_z_2 = Real(0.03) * struts0af1_x - (Real(0.01) * struts0af1_y - (q1r2_z * struts0an1p_y
-      - (q1r0_z * struts0an0_z + q1r1_z * struts0an1p_x)));
+  const Real struts0am_x = q1r2_x * struts0an1p_y + (q1r1_x * struts0an1p_x - (q1r0_x * struts0an0_z +
+      (Real(0.2) * struts0af1_y - Real(0.03) * struts0af1_z)));
+  const Real struts0af1_x = q1r1_x * strutad1p_x + (q1r0_x * strutad1p_z - q1r2_x * strutad1p_y);
+  const Real struts0am_y = q1r2_y * struts0an1p_y - (q1r1_y * struts0an1p_x - (q1r0_y * struts0an0_z -
+      (Real(0.01) * struts0af1_z + Real(0.2) * struts0af1_x)));
+  const Real struts0am_z_2 = q1r2_z * struts0an1p_y - (q1r1_z * struts0an1p_x + (q1r0_z * struts0an0_z -
+      (Real(0.01) * struts0af1_y + Real(0.03) * struts0af1_x)));
   const Real struts1an0_z = strutd_y * strutad1_y_2 - strutd_z * strutad1_x_2;
-  const Real struts1af1_y = q1r2_y * strutad1p_y_2 + (q1r0_y * strutad1p_z_2 + q1r1_y * strutad1p_x_2);
-  const Real struts1af1_z = q1r2_z * strutad1p_y_2 - (q1r0_z * strutad1p_z_2 - q1r1_z * strutad1p_x_2);
-  const Real struts1an0_x = strutd_x * strutad1_y_2 - strutd_z * strutad1p_z_2;
-  const Real struts1an0_y = strutd_x * strutad1_x_2 - strutd_y * strutad1p_z_2;
-  const Real struts1an1p_x = c0 * struts1an0_x + s0 * struts1an0_y;
-  const Real struts1an1p_y = c0 * struts1an0_y - s0 * struts1an0_x;
-  const Real struts1af1_x = q1r2_x * strutad1p_y_2 - (q1r0_x * strutad1p_z_2 + q1r1_x * strutad1p_x_2);
-  const Real struts1am_y = Real(0.2) * struts1af1_x - (Real(0.01) * struts1af1_z + (q1r2_y * struts1an1p_y +
-      (q1r0_y * struts1an0_z - q1r1_y * struts1an1p_x)));
+  const Real struts1af1_y = q1r2_y * strutad1p_y_2 + (q1r0_y * strutad1p_z_2 - q1r1_y * strutad1p_x_2);
+  const Real struts1af1_z = q1r2_z * strutad1p_y_2 - (q1r0_z * strutad1p_z_2 + q1r1_z * strutad1p_x_2);
+  const Real struts1an0_x = strutd_x * strutad1_y_2 + strutd_z * strutad1p_z_2;
+  const Real struts1an0_y = strutd_x * strutad1_x_2 + strutd_y * strutad1p_z_2;
+  const Real struts1an1p_x = c0 * struts1an0_x - s0 * struts1an0_y;
+  const Real struts1an1p_y = c0 * struts1an0_y + s0 * struts1an0_x;
+  const Real struts1af1_x = q1r2_x * strutad1p_y_2 - (q1r0_x * strutad1p_z_2 - q1r1_x * strutad1p_x_2);
+  const Real struts1am_y = q1r2_y * struts1an1p_y + (q1r1_y * struts1an1p_x - (q1r0_y * struts1an0_z -
+      (Real(0.01) * struts1af1_z - Real(0.2) * struts1af1_x)));
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
   const Real tie_rods0bf0_y = tie_rodd_z * Real(3.123475237772121);
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
@@ -1682,53 +1678,49 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y + (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
   const Real tie_rods0bm_y = Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x;
   const Real derivative = s * model.c2;
-  const Real tie_rods0at = tie_rods0bf0_x * derivative;
-  const Real t294 = Real(1.0) / struts0am_y;
-  const Real t295 = struts1am_y * t294;
-  const Real t307 = struts0am_z_2 * t295 - (Real(0.03) * struts1af1_x - (Real(0.01) * struts1af1_y - (q1r2_z *
-      struts1an1p_y - (q1r0_z * struts1an0_z + q1r1_z * struts1an1p_x))));
-  const Real t308 = tie_rods0bm_y * t294;
-  const Real t313 = Real(1.0) / (struts0am_x * t295 - (Real(0.03) * struts1af1_z - (Real(0.2) * struts1af1_y +
-      (q1r2_x * struts1an1p_y - (q1r0_x * struts1an0_z - q1r1_x * struts1an1p_x)))));
-  const Real t314 = (struts0am_x * t308 - (Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z)) * t313;
-  const Real t319 = Real(1.0) / (t307 * t314 - (struts0am_z_2 * t308 - (Real(0.14) * tie_rods0bf1_y -
+  const Real t293 = Real(1.0) / struts0am_y;
+  const Real t294 = struts1am_y * t293;
+  const Real t306 = struts0am_z_2 * t294 - (q1r2_z * struts1an1p_y + (q1r1_z * struts1an1p_x + (q1r0_z *
+      struts1an0_z - (Real(0.01) * struts1af1_y - Real(0.03) * struts1af1_x))));
+  const Real t307 = tie_rods0bm_y * t293;
+  const Real t312 = Real(1.0) / (struts0am_x * t294 - (q1r2_x * struts1an1p_y - (q1r1_x * struts1an1p_x -
+      (q1r0_x * struts1an0_z + (Real(0.2) * struts1af1_y - Real(0.03) * struts1af1_z)))));
+  const Real t313 = (struts0am_x * t307 - (Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z)) * t312;
+  const Real t318 = Real(1.0) / (t306 * t313 - (struts0am_z_2 * t307 + (Real(0.14) * tie_rods0bf1_y -
       Real(0.02) * tie_rods0bf1_x)));
-  const Real t323 = struts0am_z * t295 - (strutax1_y * strutad1_x_2 + (struts1an0_z - strutax1_x *
-      strutad1_y_2));
-  const Real t329 = t319 * (t314 * t323 - (struts0am_z * t308 - (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y
+  const Real t322 = struts0am_z * t294 + (struts1an0_z - (strutax1_x * strutad1_y_2 - strutax1_y *
+      strutad1_x_2));
+  const Real t328 = t318 * (t313 * t322 - (struts0am_z * t307 + (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y
       * tie_rods0bf0_x)));
-  const Real t332 = t313 * (t323 - t307 * t329);
-  const Real t342 = tie_rods0at * t319;
-  const Real t344 = t313 * (t307 * t342);
-  const Real t349 = t332 * state.z[0] + t344;
-  const Real t350 = t294 * (struts0am_z_2 * t329 - (struts0am_z - struts0am_x * t332)) * state.z[0] + t294 *
+  const Real t331 = t312 * (t322 - t306 * t328);
+  const Real t342 = t318 * (tie_rods0bf0_x * derivative);
+  const Real t344 = t342 * (t306 * t312);
+  const Real t349 = t331 * state.z[0] - t344;
+  const Real t350 = (struts0am_x * t331 - (struts0am_z - struts0am_z_2 * t328)) * (t293 * state.z[0]) - t293 *
       (struts0am_x * t344 - struts0am_z_2 * t342);
-  const Real t351 = t329 * state.z[0] - t342;
+  const Real t351 = t328 * state.z[0] + t342;
   const Real h1at1_x = q1r1_y * Real(1.14) - q1r1_z * Real(6.08);
   const Real h1at1_y = q1r2_y * Real(1.14) - q1r2_z * Real(6.08);
   const Real S1at1r0_y = q1r1_z * Real(0.1824) - q1r1_y * Real(0.3842000000000001);
   const Real S1at1r0_z = q1r1_z * Real(2.2228) - q1r1_y * Real(0.1824);
   const Real S1at1r1_y = q1r2_z * Real(0.1824) - q1r2_y * Real(0.3842000000000001);
   const Real S1at1r1_z = q1r2_z * Real(2.2228) - q1r2_y * Real(0.1824);
-  const Real S0b_zz = (q1r1_x * q1r1_x + q1r2_x * q1r2_x) * Real(0.6499999999999999) - (q1r1_y * S1at1r0_y -
-      (q1r1_z * S1at1r0_z - (h1at1_x * Real(0.68) + (q1r2_y * S1at1r1_y - (q1r2_z * S1at1r1_z - h1at1_y *
-      Real(0.04))))) - Real(4.612500000000001));
-  const Real w1p_x = q1r0_x * state.z[0];
-  const Real w1p_y = q1r0_y * state.z[0];
-  const Real w1p_z = q1r0_z * state.z[0];
-  const Real v0L_z = state.z[0] * S0b_zz;
+  const Real S0b_zz = (q1r1_x * q1r1_x + q1r2_x * q1r2_x) * Real(0.6499999999999999) + Real(4.612500000000001)
+      - (q1r1_y * S1at1r0_y - q1r1_z * S1at1r0_z) - (q1r2_y * S1at1r1_y - q1r2_z * S1at1r1_z + (h1at1_x *
+      Real(0.68) + h1at1_y * Real(0.04)));
   const Real v1o_x = Real(0.02) * state.z[0];
   const Real v1o_y = Real(0.34) * state.z[0];
   const Real v1_x = q1r1_x * v1o_x + q1r2_x * v1o_y;
   const Real v1_y = q1r1_y * v1o_x - q1r2_y * v1o_y;
   const Real v1_z = q1r1_z * v1o_x - q1r2_z * v1o_y;
-  const Real v1P_x = t351 * Real(1.14) + t350 * Real(6.08);
+  const Real v1P_x = t351 * Real(1.14) - t350 * Real(6.08);
   const Real v1L_x = t349 * Real(2.607);
-  const Real v1L_y = t350 * Real(2.8728) + t351 * Real(0.1824);
-  const Real v1L_z = t351 * Real(1.0342) + t350 * Real(0.1824);
-  const Real T2 = (derivative * derivative * Real(3.0) + (state.z[0] * v0L_z + (t351 * v1L_z + (t349 * v1L_x +
-      t350 * v1L_y)))) * Real(0.5) + (Real(1.14) * (t349 * v1_z) + (Real(6.08) * (t349 * v1_y) - (v1_x * v1P_x
-      - (w1p_z * v1L_z - (w1p_x * v1L_x + w1p_y * v1L_y)))));
+  const Real v1L_y = t350 * Real(2.8728) - t351 * Real(0.1824);
+  const Real v1L_z = t351 * Real(1.0342) - t350 * Real(0.1824);
+  const Real T2 = (t351 * v1L_z + (t350 * v1L_y + (t349 * v1L_x + (S0b_zz * (state.z[0] * state.z[0]) +
+      derivative * (derivative * Real(3.0)))))) * Real(0.5) + (v1L_y * (q1r0_y * state.z[0]) + (v1L_x *
+      (q1r0_x * state.z[0]) - (t349 * (Real(6.08) * v1_y) + t349 * (Real(1.14) * v1_z))) + (v1L_z * (q1r0_z *
+      state.z[0]) - v1_x * v1P_x));
   return T2;
 }
 
@@ -1758,20 +1750,20 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
   const Real q1r2_x = q113 - q102;
   const Real q1r2_y = q123 + q101;
   const Real q1r2_z = q122 + t26;
-  const Real strutax1p_x = q1r1_x * Real(0.01) - (q1r1_z * Real(0.2) + q1r1_y * Real(0.03)) - Real(0.34);
-  const Real strutax1p_y = q1r2_x * Real(0.01) + (q1r2_z * Real(0.2) + q1r2_y * Real(0.03) + Real(0.02));
-  const Real strutd_x = q1r0_x * Real(0.01) + (q1r0_z * Real(0.2) - q1r0_y * Real(0.03)) + Real(0.04);
+  const Real strutax1p_x = q1r1_x * Real(0.01) - Real(0.34) - (q1r1_z * Real(0.2) + q1r1_y * Real(0.03));
+  const Real strutax1p_y = q1r2_x * Real(0.01) + Real(0.02) + (q1r2_z * Real(0.2) + q1r2_y * Real(0.03));
+  const Real strutd_x = q1r0_z * Real(0.2) + Real(0.04) + (q1r0_x * Real(0.01) - q1r0_y * Real(0.03));
   const Real strutd_y = s0 * strutax1p_y - (c0 * strutax1p_x + Real(0.22999999999999998));
   const Real strutd_z = s0 * strutax1p_x + (c0 * strutax1p_y + Real(0.5800000000000001));
-  const Real h1c_x = q1r1_z * Real(6.08) - (q1r1_y * Real(1.14) - Real(13.770000000000001));
+  const Real h1c_x = q1r1_y * Real(1.14) - (q1r1_z * Real(6.08) + Real(13.770000000000001));
   const Real h1c_y = q1r2_z * Real(6.08) - (q1r2_y * Real(1.14) - Real(0.76));
-  const Real hg2_z = s0 * h1c_x - (c0 * h1c_y - Real(9.84));
-  const Real spring_damper_ll = strutd_x * strutd_x + (strutd_y * strutd_y + strutd_z * strutd_z +
-      Real(1e-18));
+  const Real hg2_z = s0 * h1c_x + (c0 * h1c_y - Real(9.84));
+  const Real spring_damper_ll = strutd_z * strutd_z + (strutd_y * strutd_y + (strutd_x * strutd_x +
+      Real(1e-18)));
   const Real spring_damper_l = detail::square_root(spring_damper_ll);
   const Real spring_damper_e = spring_damper_l - model.free_length;
-  const Real V = hg2_z * Real(9.81) + spring_damper_e * spring_damper_e * model.c8;
-  return V;
+  const Real V = hg2_z * Real(9.81) - spring_damper_e * (spring_damper_e * model.c8);
+  return -V;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -1801,13 +1793,14 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
   const Real q1r2_x = q113 - q102;
   const Real q1r2_y = q123 + q101;
   const Real q1r2_z = q122 + t26;
-  const Real wheel_centerx1p_x = q1r1_x * Real(0.01) - Real(0.34) - q1r1_z * Real(0.12) + q1r1_y * Real(0.06);
-  const Real wheel_centerx1p_y = q1r2_x * Real(0.01) + Real(0.02) + q1r2_z * Real(0.12) - q1r2_y * Real(0.06);
-  const Real wheel_centerx1_y = c0 * wheel_centerx1p_y + s0 * wheel_centerx1p_x;
-  const Real wheel_centerx0_z = wheel_centerx1_y - Real(0.21);
-  const Real wheel_centerx1p_z = Real(0.01) + q1r0_x * Real(0.01) + q1r0_z * Real(0.12) + q1r0_y * Real(0.06);
-  const Real wheel_centerx1_x = c0 * wheel_centerx1p_x - s0 * wheel_centerx1p_y;
-  const Real wheel_centerx0_y = wheel_centerx1_x - Real(0.36);
+  const Real wheel_centerx1p_x = q1r1_x * Real(0.01) - Real(0.34) - (q1r1_z * Real(0.12) - q1r1_y *
+      Real(0.06));
+  const Real wheel_centerx1p_y = q1r2_x * Real(0.01) + Real(0.02) + (q1r2_z * Real(0.12) - q1r2_y *
+      Real(0.06));
+  const Real wheel_centerx0_z = s0 * wheel_centerx1p_x + (c0 * wheel_centerx1p_y - Real(0.21));
+  const Real wheel_centerx1p_z = Real(0.01) + q1r0_z * Real(0.12) + (q1r0_x * Real(0.01) + q1r0_y *
+      Real(0.06));
+  const Real wheel_centerx0_y = s0 * wheel_centerx1p_y - (c0 * wheel_centerx1p_x - Real(0.36));
   const Real wheel_centere11_x = c0 * q1r1_x - s0 * q1r2_x;
   const Real wheel_centere11_y = c0 * q1r1_y + s0 * q1r2_y;
   const Real wheel_centere11_z = c0 * q1r1_z + s0 * q1r2_z;
@@ -1816,7 +1809,7 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
   const Real wheel_centere21_z = c0 * q1r2_z - s0 * q1r1_z;
   const Real expression = wheel_centerx0_z + Real(0.31);
   result.wheel.position[0] = wheel_centerx1p_z;
-  result.wheel.position[1] = -wheel_centerx0_y;
+  result.wheel.position[1] = wheel_centerx0_y;
   result.wheel.position[2] = -wheel_centerx0_z;
   result.wheel.rotation[0][0] = -q1r0_x;
   result.wheel.rotation[0][1] = q1r0_y;
@@ -1836,27 +1829,27 @@ void close_loops(const Model<Real>& model, State<Real>& state) noexcept {
   Real t1, t2;
   detail::sine_cosine(state.y[0], t1, t2);
   const Real t9 = t2 * Real(0.34) + t1 * Real(0.02);
-  const Real t12 = t2 * Real(0.02) - t1 * Real(0.34) - Real(0.21);
+  const Real t12 = t1 * Real(0.34) - (t2 * Real(0.02) - Real(0.21));
   const Real t14 = t9 - Real(0.22999999999999998);
-  const Real t16 = t12 + Real(0.79);
+  const Real t16 = t12 - Real(0.79);
   const Real t18 = t2 * Real(0.9363291775690445);
   const Real t19 = t1 * Real(0.9363291775690445);
-  const Real t24 = t14 * t19 + t16 * t18;
-  const Real t25 = t14 * t18 - t16 * t19;
+  const Real t24 = t14 * t19 - t16 * t18;
+  const Real t25 = t14 * t18 + t16 * t19;
   const Real t29 = detail::cosine(detail::Angle<Real>(state.t) * model.rate);
   const Real t34 = t9 + (t29 - Real(1.0)) * model.c1;
-  const Real t36 = t12 + Real(0.27);
+  const Real t36 = t12 - Real(0.27);
   const Real t45 = (t25 * t25 + t24 * t24) * Real(0.7686245074122725) + Real(0.0009975824605172434);
   const Real t49 = detail::square_root(t45);
   const Real t57 = t49 * Real(0.08365967447384275) - Real(0.0045221397219114634);
   const Real t59 = t49 * Real(0.22309246526358067) - Real(0.008937941999867091);
   const Real t61 = t49 * Real(1.1154623263179033) + Real(0.002126748879116778);
-  const Real t66 = t2 * t34 - t1 * t36;
-  const Real t67 = t1 * t34 + t2 * t36;
+  const Real t66 = t2 * t34 + t1 * t36;
+  const Real t67 = t1 * t34 - t2 * t36;
   const Real t77 = t61 * t61 + (t57 * t57 + t59 * t59);
   const Real t78 = Real(1.0) / t77;
   const Real t83 = t78 * (t49 * Real(0.09425656657386285) - Real(0.0006629859795267724));
-  const Real t88 = t25 * t66 + t24 * t67 + Real(0.00524344339438665);
+  const Real t88 = t24 * t67 + (t25 * t66 + Real(0.00524344339438665));
   const Real t93 = t57 * t83 - Real(0.14);
   const Real t94 = Real(0.02) - t59 * t83;
   const Real t96 = t61 * t83 - Real(0.07);
@@ -1866,9 +1859,9 @@ void close_loops(const Model<Real>& model, State<Real>& state) noexcept {
   const Real t105 = t67 - t24 * t97;
   const Real t110 = t96 * t96 + (t93 * t93 + t94 * t94);
   const Real t116 = Real(1.0) / (t105 * t105 + (t103 * t103 + t104 * t104));
-  const Real t118 = (t34 * t34 + t36 * t36 - Real(0.058)) * Real(0.5) - t83 * t88;
+  const Real t118 = (t36 * t36 + (t34 * t34 - Real(0.058))) * Real(0.5) - t83 * t88;
   const Real t119 = t116 * t118;
-  const Real t132 = t78 * (t116 * (t110 - t118 * t119));
+  const Real t132 = (t110 - t118 * t119) * (t78 * t116);
   const Real t138 = Real(1.0) / detail::square_root(t77);
   const Real t140 = Real(1.0) / detail::square_root(t110);
   const Real t141 = Real(0.03745316710276178) * t138;
@@ -1885,32 +1878,32 @@ void close_loops(const Model<Real>& model, State<Real>& state) noexcept {
   const Real t158 = t93 * t140;
   const Real t159 = t94 * t140;
   const Real t160 = t96 * t140;
-  const Real t178 = detail::square_root(-(t141 * t153 - (Real(1.0) - (t142 * t152 - (t141 - t153)))));
+  const Real t178 = detail::square_root(-(t153 - (Real(1.0) + t141) + (t141 * t153 + t142 * t152)));
   const Real t180 = Real(0.5) * (Real(1.0) / t178);
-  const Real t183 = t180 * (t142 * t154 + (t143 - t143 * t153));
-  const Real t186 = t180 * (t143 * t152 + (t154 + t141 * t154));
+  const Real t183 = t180 * (t143 * t153 - (t143 + t142 * t154));
+  const Real t186 = t180 * (t141 * t154 + (t154 + t143 * t152));
   const Real t188 = t180 * (t142 - t152);
   const Real t189 = Real(0.5) * t178;
-  const Real t195 = detail::square_root(-(t155 * t159 - (Real(1.0) - (t156 * t158 - (t155 - t159)))));
+  const Real t195 = detail::square_root(-(t159 - (Real(1.0) + t155) + (t155 * t159 + t156 * t158)));
   const Real t197 = Real(0.5) * (Real(1.0) / t195);
-  const Real t200 = t197 * (t156 * t160 - (t157 - t157 * t159));
-  const Real t203 = t197 * (t157 * t158 - (t160 + t155 * t160));
+  const Real t200 = t197 * (t157 * t159 - (t157 - t156 * t160));
+  const Real t203 = t197 * (t155 * t160 + (t160 - t157 * t158));
   const Real t205 = t197 * (t156 - t158);
   const Real t206 = Real(0.5) * t195;
-  const Real t221 = t186 * t206 - (t189 * t203 + (t183 * t205 + t188 * t200));
-  const Real t224 = t188 * t203 - (t186 * t205 + (t183 * t206 + t189 * t200));
-  const Real t227 = t189 * t205 - (t188 * t206 + (t183 * t203 + t186 * t200));
-  const Real t234 = t186 * t203 - (t183 * t200 - (t188 * t205 + t189 * t206));
+  const Real t221 = t183 * t205 + t189 * t203 - (t188 * t200 - t186 * t206);
+  const Real t224 = t183 * t206 - t189 * t200 - (t186 * t205 + t188 * t203);
+  const Real t227 = t183 * t203 - t189 * t205 + (t186 * t200 + t188 * t206);
+  const Real t234 = t183 * t200 + t189 * t206 + (t188 * t205 - t186 * t203);
   const Real t236 = t234 - state.y[1];
   const Real t239 = t221 - state.y[2];
   const Real t242 = t224 + state.y[3];
-  const Real t245 = t227 + state.y[4];
+  const Real t245 = t227 - state.y[4];
   closed.y[1] = t234;
   closed.y[2] = t221;
   closed.y[3] = -t224;
-  closed.y[4] = -t227;
-  closed.regularity = t45 / (t45 + Real(8.059767042819092e-05)) * (t132 / (t78 * (t110 * t116)));
-  closed.opening = t239 * t239 + (t236 * t236 + (t242 * t242 + t245 * t245));
+  closed.y[4] = t227;
+  closed.regularity = t45 / (t45 + Real(8.059767042819092e-05)) * (t132 / (t116 * (t78 * t110)));
+  closed.opening = t236 * t236 + t239 * t239 + (t242 * t242 + t245 * t245);
   closed.beyond[0] = (state.y[0] + Real(0.3)) * (state.y[0] - Real(0.3));
   state = closed;
 }
@@ -1942,11 +1935,11 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real q1r2_x = q113 - q102;
   const Real q1r2_y = q123 + q101;
   const Real q1r2_z = q122 + t26;
-  const Real strutax1p_x = q1r1_x * Real(0.01) - (q1r1_z * Real(0.2) + q1r1_y * Real(0.03)) - Real(0.34);
-  const Real strutax1p_y = q1r2_x * Real(0.01) + (q1r2_z * Real(0.2) + q1r2_y * Real(0.03) + Real(0.02));
+  const Real strutax1p_x = q1r1_x * Real(0.01) - Real(0.34) - (q1r1_z * Real(0.2) + q1r1_y * Real(0.03));
+  const Real strutax1p_y = q1r2_x * Real(0.01) + Real(0.02) + (q1r2_z * Real(0.2) + q1r2_y * Real(0.03));
   const Real strutax1_x = c0 * strutax1p_x - s0 * strutax1p_y;
   const Real strutax1_y = c0 * strutax1p_y + s0 * strutax1p_x;
-  const Real strutd_x = q1r0_x * Real(0.01) + (q1r0_z * Real(0.2) - q1r0_y * Real(0.03)) + Real(0.04);
+  const Real strutd_x = q1r0_z * Real(0.2) + Real(0.04) + (q1r0_x * Real(0.01) - q1r0_y * Real(0.03));
   const Real strutd_y = strutax1_x + Real(0.22999999999999998);
   const Real strutd_z = strutax1_y + Real(0.5800000000000001);
   const Real strutad1p_x = q1r1_y * Real(0.35112344158839165) + q1r1_x * Real(0.9363291775690445);
@@ -1954,123 +1947,123 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real strutad1p_z = q1r0_y * Real(0.35112344158839165) + q1r0_x * Real(0.9363291775690445);
   const Real strutad1_x = c0 * strutad1p_x + s0 * strutad1p_y;
   const Real strutad1_y = c0 * strutad1p_y - s0 * strutad1p_x;
-  const Real g_strut = strutd_y * strutad1_x + (strutd_x * strutad1p_z - strutd_z * strutad1_y);
-  const Real strutad1p_x_2 = q1r1_z * Real(0.2088879845220991) + (q1r1_x * Real(0.3433775088034506) - q1r1_y *
-      Real(0.9156733568092016));
+  const Real g_strut = strutd_z * strutad1_y - (strutd_x * strutad1p_z + strutd_y * strutad1_x);
+  const Real strutad1p_x_2 = q1r1_y * Real(0.9156733568092016) - (q1r1_x * Real(0.3433775088034506) + q1r1_z *
+      Real(0.2088879845220991));
   const Real strutad1p_y_2 = q1r2_z * Real(0.2088879845220991) - (q1r2_x * Real(0.3433775088034506) + q1r2_y *
       Real(0.9156733568092016));
-  const Real strutad1p_z_2 = q1r0_z * Real(0.2088879845220991) - (q1r0_x * Real(0.3433775088034506) - q1r0_y *
+  const Real strutad1p_z_2 = q1r0_x * Real(0.3433775088034506) - (q1r0_z * Real(0.2088879845220991) + q1r0_y *
       Real(0.9156733568092016));
-  const Real strutad1_x_2 = c0 * strutad1p_x_2 + s0 * strutad1p_y_2;
-  const Real strutad1_y_2 = c0 * strutad1p_y_2 - s0 * strutad1p_x_2;
-  const Real g_strut_2 = strutd_y * strutad1_x_2 - (strutd_x * strutad1p_z_2 + strutd_z * strutad1_y_2);
+  const Real strutad1_x_2 = c0 * strutad1p_x_2 - s0 * strutad1p_y_2;
+  const Real strutad1_y_2 = c0 * strutad1p_y_2 + s0 * strutad1p_x_2;
+  const Real g_strut_2 = strutd_z * strutad1_y_2 - (strutd_x * strutad1p_z_2 - strutd_y * strutad1_x_2);
   const detail::Angle<Real> expression = detail::Angle<Real>(state.t) * model.rate;
   Real s, c;
   detail::sine_cosine(expression, s, c);
   const Real expression_2 = Real(1.0) - c;
   const Real expression_3 = expression_2 * model.c1;
-  const Real tie_rodbx1p_x = q1r1_x * Real(0.14) - (Real(0.34) + (q1r1_z * Real(0.07) + q1r1_y * Real(0.02)));
-  const Real tie_rodbx1p_y = q1r2_x * Real(0.14) + (Real(0.02) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02)));
-  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x - s0 * tie_rodbx1p_y;
-  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y + s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_y * Real(0.02) - (q1r0_x * Real(0.14) + q1r0_z * Real(0.07)) - Real(0.14);
-  const Real tie_rodd_y = expression_3 + tie_rodbx1_x;
+  const Real tie_rodbx1p_x = Real(0.34) - q1r1_x * Real(0.14) + (q1r1_z * Real(0.07) + q1r1_y * Real(0.02));
+  const Real tie_rodbx1p_y = Real(0.02) + q1r2_x * Real(0.14) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02));
+  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
+  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
+  const Real tie_rodd_x = q1r0_z * Real(0.07) + Real(0.14) + (q1r0_x * Real(0.14) - q1r0_y * Real(0.02));
+  const Real tie_rodd_y = expression_3 - tie_rodbx1_x;
   const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
   const Real tie_rodll = tie_rodd_y * tie_rodd_y + (tie_rodd_x * tie_rodd_x + tie_rodd_z * tie_rodd_z);
   const Real g_tie_rod = tie_rodll * Real(1.5617376188860606) - Real(0.16007810593582122);
   const Real struts0an0_z = strutd_y * strutad1_y + strutd_z * strutad1_x;
-  const Real struts0am_z = strutax1_x * strutad1_y - (struts0an0_z - strutax1_y * strutad1_x);
+  const Real struts0am_z = struts0an0_z - (strutax1_x * strutad1_y + strutax1_y * strutad1_x);
   const Real struts0af1_y = q1r1_y * strutad1p_x + (q1r0_y * strutad1p_z + q1r2_y * strutad1p_y);
   const Real struts0af1_z = q1r1_z * strutad1p_x - (q1r0_z * strutad1p_z - q1r2_z * strutad1p_y);
   const Real struts0an0_x = strutd_x * strutad1_y + strutd_z * strutad1p_z;
   const Real struts0an0_y = strutd_x * strutad1_x - strutd_y * strutad1p_z;
   const Real struts0an1p_x = c0 * struts0an0_x + s0 * struts0an0_y;
   const Real struts0an1p_y = c0 * struts0an0_y - s0 * struts0an0_x;
-  const Real struts0am_x = q1r1_x * struts0an1p_x - (q1r0_x * struts0an0_z - (q1r2_x * struts0an1p_y -
+  const Real struts0am_x = q1r2_x * struts0an1p_y + (q1r1_x * struts0an1p_x - (q1r0_x * struts0an0_z +
       (Real(0.2) * struts0af1_y - Real(0.03) * struts0af1_z)));
   const Real struts0af1_x = q1r1_x * strutad1p_x + (q1r0_x * strutad1p_z - q1r2_x * strutad1p_y);
-  const Real struts0am_y = q1r1_y * struts0an1p_x - (q1r0_y * struts0an0_z + (q1r2_y * struts0an1p_y -
+  const Real struts0am_y = q1r2_y * struts0an1p_y - (q1r1_y * struts0an1p_x - (q1r0_y * struts0an0_z -
       (Real(0.01) * struts0af1_z + Real(0.2) * struts0af1_x)));
-  const Real struts0am_z_2 = q1r1_z * struts0an1p_x + (q1r0_z * struts0an0_z - (q1r2_z * struts0an1p_y +
+  const Real struts0am_z_2 = q1r2_z * struts0an1p_y - (q1r1_z * struts0an1p_x + (q1r0_z * struts0an0_z -
       (Real(0.01) * struts0af1_y + Real(0.03) * struts0af1_x)));
-  const Real struts1an0_z = strutd_y * strutad1_y_2 + strutd_z * strutad1_x_2;
-  const Real struts1af1_y = q1r1_y * strutad1p_x_2 - (q1r0_y * strutad1p_z_2 - q1r2_y * strutad1p_y_2);
-  const Real struts1af1_z = q1r1_z * strutad1p_x_2 + (q1r0_z * strutad1p_z_2 + q1r2_z * strutad1p_y_2);
-  const Real struts1an0_x = strutd_x * strutad1_y_2 - strutd_z * strutad1p_z_2;
+  const Real struts1an0_z = strutd_y * strutad1_y_2 - strutd_z * strutad1_x_2;
+  const Real struts1af1_y = q1r2_y * strutad1p_y_2 + (q1r0_y * strutad1p_z_2 - q1r1_y * strutad1p_x_2);
+  const Real struts1af1_z = q1r2_z * strutad1p_y_2 - (q1r0_z * strutad1p_z_2 + q1r1_z * strutad1p_x_2);
+  const Real struts1an0_x = strutd_x * strutad1_y_2 + strutd_z * strutad1p_z_2;
   const Real struts1an0_y = strutd_x * strutad1_x_2 + strutd_y * strutad1p_z_2;
-  const Real struts1an1p_x = c0 * struts1an0_x + s0 * struts1an0_y;
-  const Real struts1an1p_y = c0 * struts1an0_y - s0 * struts1an0_x;
-  const Real struts1af1_x = q1r1_x * strutad1p_x_2 - (q1r0_x * strutad1p_z_2 + q1r2_x * strutad1p_y_2);
-  const Real struts1am_y = q1r1_y * struts1an1p_x - (q1r0_y * struts1an0_z + (q1r2_y * struts1an1p_y -
-      (Real(0.01) * struts1af1_z + Real(0.2) * struts1af1_x)));
+  const Real struts1an1p_x = c0 * struts1an0_x - s0 * struts1an0_y;
+  const Real struts1an1p_y = c0 * struts1an0_y + s0 * struts1an0_x;
+  const Real struts1af1_x = q1r2_x * strutad1p_y_2 - (q1r0_x * strutad1p_z_2 - q1r1_x * strutad1p_x_2);
+  const Real struts1am_y = q1r2_y * struts1an1p_y + (q1r1_y * struts1an1p_x - (q1r0_y * struts1an0_z -
+      (Real(0.01) * struts1af1_z - Real(0.2) * struts1af1_x)));
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
   const Real tie_rods0bf0_y = tie_rodd_z * Real(3.123475237772121);
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
   const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x + s0 * tie_rods0bf0_y;
   const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y - s0 * tie_rods0bf0_x;
-  const Real tie_rods0bf1_y = q1r1_y * tie_rods0bf1p_x - (q1r0_y * tie_rods0bf0_z + q1r2_y * tie_rods0bf1p_y);
-  const Real tie_rods0bf1_z = q1r1_z * tie_rods0bf1p_x + (q1r0_z * tie_rods0bf0_z - q1r2_z * tie_rods0bf1p_y);
-  const Real tie_rods0bf1_x = q1r1_x * tie_rods0bf1p_x - (q1r0_x * tie_rods0bf0_z - q1r2_x * tie_rods0bf1p_y);
-  const Real tie_rods0bm_y = Real(0.14) * tie_rods0bf1_z + Real(0.07) * tie_rods0bf1_x;
-  const Real t311 = Real(1.0) / struts0am_y;
-  const Real t312 = struts1am_y * t311;
-  const Real t324 = q1r1_z * struts1an1p_x + (q1r0_z * struts1an0_z - (q1r2_z * struts1an1p_y + (Real(0.01) *
-      struts1af1_y + (Real(0.03) * struts1af1_x + struts0am_z_2 * t312))));
-  const Real t325 = tie_rods0bm_y * t311;
-  const Real t330 = Real(1.0) / (q1r1_x * struts1an1p_x - (q1r0_x * struts1an0_z - (q1r2_x * struts1an1p_y -
-      (Real(0.2) * struts1af1_y - (Real(0.03) * struts1af1_z - struts0am_x * t312)))));
-  const Real t331 = (Real(0.02) * tie_rods0bf1_z - (Real(0.07) * tie_rods0bf1_y + struts0am_x * t325)) * t330;
-  const Real t336 = Real(1.0) / (Real(0.02) * tie_rods0bf1_x + (Real(0.14) * tie_rods0bf1_y + (struts0am_z_2 *
-      t325 + t324 * t331)));
-  const Real t340 = strutax1_x * strutad1_y_2 - (struts1an0_z - (strutax1_y * strutad1_x_2 - struts0am_z *
-      t312));
-  const Real t346 = t336 * (tie_rodbx1_y * tie_rods0bf0_x - (tie_rodbx1_x * tie_rods0bf0_y + (struts0am_z *
-      t325 + t331 * t340)));
-  const Real t349 = t330 * (t340 + t324 * t346);
-  const Real t361 = tie_rods0bf0_x * s * t336 * model.c2;
-  const Real t363 = t330 * (t324 * t361);
-  const Real t368 = t349 * state.z[0] - t363;
-  const Real t369 = t311 * (struts0am_x * t349 - (struts0am_z + struts0am_z_2 * t346)) * state.z[0] - t311 *
+  const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y - (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y + (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
+  const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y + (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
+  const Real tie_rods0bm_y = Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x;
+  const Real t310 = Real(1.0) / struts0am_y;
+  const Real t311 = struts1am_y * t310;
+  const Real t323 = struts0am_z_2 * t311 - (q1r2_z * struts1an1p_y + (q1r1_z * struts1an1p_x + (q1r0_z *
+      struts1an0_z - (Real(0.01) * struts1af1_y - Real(0.03) * struts1af1_x))));
+  const Real t324 = tie_rods0bm_y * t310;
+  const Real t329 = Real(1.0) / (struts0am_x * t311 - (q1r2_x * struts1an1p_y - (q1r1_x * struts1an1p_x -
+      (q1r0_x * struts1an0_z + (Real(0.2) * struts1af1_y - Real(0.03) * struts1af1_z)))));
+  const Real t330 = (struts0am_x * t324 - (Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z)) * t329;
+  const Real t335 = Real(1.0) / (t323 * t330 - (struts0am_z_2 * t324 + (Real(0.14) * tie_rods0bf1_y -
+      Real(0.02) * tie_rods0bf1_x)));
+  const Real t339 = struts0am_z * t311 + (struts1an0_z - (strutax1_x * strutad1_y_2 - strutax1_y *
+      strutad1_x_2));
+  const Real t345 = t335 * (t330 * t339 - (struts0am_z * t324 + (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y
+      * tie_rods0bf0_x)));
+  const Real t348 = t329 * (t339 - t323 * t345);
+  const Real t361 = t335 * (tie_rods0bf0_x * (s * model.c2));
+  const Real t363 = t361 * (t323 * t329);
+  const Real t368 = t348 * state.z[0] - t363;
+  const Real t369 = (struts0am_x * t348 - (struts0am_z - struts0am_z_2 * t345)) * (t310 * state.z[0]) - t310 *
       (struts0am_x * t363 - struts0am_z_2 * t361);
-  const Real t370 = t346 * state.z[0] - t361;
-  const Real strutam1t_x = Real(0.2) * t369 - Real(0.03) * t370;
+  const Real t370 = t345 * state.z[0] + t361;
+  const Real strutam1t_x = Real(0.2) * t369 + Real(0.03) * t370;
   const Real strutam1t_y = Real(0.01) * t370 - Real(0.2) * t368;
-  const Real strutam1t_z = Real(0.01) * t369 - Real(0.03) * t368;
-  const Real strutam1vpp_x = q1r1_y * strutam1t_y - (q1r1_x * strutam1t_x + q1r1_z * strutam1t_z);
-  const Real strutam1vpp_y = q1r2_y * strutam1t_y + (q1r2_x * strutam1t_x - q1r2_z * strutam1t_z);
-  const Real strutam1vpp_z = q1r0_y * strutam1t_y - (q1r0_x * strutam1t_x - q1r0_z * strutam1t_z);
+  const Real strutam1t_z = Real(0.01) * t369 + Real(0.03) * t368;
+  const Real strutam1vpp_x = q1r1_z * strutam1t_z + (q1r1_x * strutam1t_x + q1r1_y * strutam1t_y);
+  const Real strutam1vpp_y = q1r2_z * strutam1t_z - (q1r2_x * strutam1t_x - q1r2_y * strutam1t_y);
+  const Real strutam1vpp_z = q1r0_z * strutam1t_z - (q1r0_x * strutam1t_x + q1r0_y * strutam1t_y);
   const Real strutam0t_x = strutax1_y * state.z[0];
   const Real strutam0t_y = strutax1_x * state.z[0];
-  const Real strutam0v_x = s0 * strutam1vpp_y + (c0 * strutam1vpp_x - strutam0t_x);
-  const Real strutam0v_y = s0 * strutam1vpp_x - (c0 * strutam1vpp_y - strutam0t_y);
+  const Real strutam0v_x = s0 * strutam1vpp_y + (c0 * strutam1vpp_x + strutam0t_x);
+  const Real strutam0v_y = s0 * strutam1vpp_x - (c0 * strutam1vpp_y + strutam0t_y);
   const Real strutad1t_x = Real(0.35112344158839165) * t370;
   const Real strutad1t_y = Real(0.9363291775690445) * t370;
-  const Real strutad1t_z = Real(0.35112344158839165) * t368 + Real(0.9363291775690445) * t369;
-  const Real strutad1vpp_x = q1r1_y * strutad1t_y - (q1r1_x * strutad1t_x + q1r1_z * strutad1t_z);
-  const Real strutad1vpp_y = q1r2_y * strutad1t_y + (q1r2_x * strutad1t_x - q1r2_z * strutad1t_z);
-  const Real strutad1vpp_z = q1r0_y * strutad1t_y - (q1r0_x * strutad1t_x - q1r0_z * strutad1t_z);
+  const Real strutad1t_z = Real(0.35112344158839165) * t368 - Real(0.9363291775690445) * t369;
+  const Real strutad1vpp_x = q1r1_z * strutad1t_z + (q1r1_x * strutad1t_x - q1r1_y * strutad1t_y);
+  const Real strutad1vpp_y = q1r2_z * strutad1t_z - (q1r2_x * strutad1t_x + q1r2_y * strutad1t_y);
+  const Real strutad1vpp_z = q1r0_z * strutad1t_z - (q1r0_x * strutad1t_x - q1r0_y * strutad1t_y);
   const Real strutad0t_x = strutad1_y * state.z[0];
   const Real strutad0t_y = strutad1_x * state.z[0];
   const Real strutad0v_x = s0 * strutad1vpp_y + (c0 * strutad1vpp_x + strutad0t_x);
   const Real strutad0v_y = s0 * strutad1vpp_x - (c0 * strutad1vpp_y - strutad0t_y);
-  const Real rate_strut = strutad1_x * strutam0v_x + (strutad1p_z * strutam1vpp_z - (strutad1_y * strutam0v_y
-      - (strutd_x * strutad1vpp_z + (strutd_y * strutad0v_x + strutd_z * strutad0v_y))));
-  const Real strutad1t_x_2 = Real(0.2088879845220991) * t369 + Real(0.9156733568092016) * t370;
+  const Real rate_strut = strutad1_x * strutam0v_x - strutd_z * strutad0v_y - (strutad1_y * strutam0v_y +
+      (strutd_y * strutad0v_x + (strutad1p_z * strutam1vpp_z - strutd_x * strutad1vpp_z)));
+  const Real strutad1t_x_2 = Real(0.2088879845220991) * t369 - Real(0.9156733568092016) * t370;
   const Real strutad1t_y_2 = Real(0.3433775088034506) * t370 + Real(0.2088879845220991) * t368;
-  const Real strutad1t_z_2 = Real(0.3433775088034506) * t369 - Real(0.9156733568092016) * t368;
-  const Real strutad1vpp_x_2 = q1r1_y * strutad1t_y_2 + (q1r1_x * strutad1t_x_2 - q1r1_z * strutad1t_z_2);
-  const Real strutad1vpp_y_2 = q1r2_y * strutad1t_y_2 - (q1r2_x * strutad1t_x_2 + q1r2_z * strutad1t_z_2);
-  const Real strutad1vpp_z_2 = q1r0_y * strutad1t_y_2 + (q1r0_x * strutad1t_x_2 + q1r0_z * strutad1t_z_2);
+  const Real strutad1t_z_2 = Real(0.3433775088034506) * t369 + Real(0.9156733568092016) * t368;
+  const Real strutad1vpp_x_2 = q1r1_z * strutad1t_z_2 - (q1r1_x * strutad1t_x_2 - q1r1_y * strutad1t_y_2);
+  const Real strutad1vpp_y_2 = q1r2_z * strutad1t_z_2 + (q1r2_x * strutad1t_x_2 + q1r2_y * strutad1t_y_2);
+  const Real strutad1vpp_z_2 = q1r0_z * strutad1t_z_2 + (q1r0_x * strutad1t_x_2 - q1r0_y * strutad1t_y_2);
   const Real strutad0t_x_2 = strutad1_y_2 * state.z[0];
   const Real strutad0t_y_2 = strutad1_x_2 * state.z[0];
-  const Real strutad0v_x_2 = s0 * strutad1vpp_y_2 + (c0 * strutad1vpp_x_2 + strutad0t_x_2);
+  const Real strutad0v_x_2 = s0 * strutad1vpp_y_2 + (c0 * strutad1vpp_x_2 - strutad0t_x_2);
   const Real strutad0v_y_2 = s0 * strutad1vpp_x_2 - (c0 * strutad1vpp_y_2 - strutad0t_y_2);
-  const Real rate_strut_2 = strutad1_x_2 * strutam0v_x - (strutad1p_z_2 * strutam1vpp_z + (strutad1_y_2 *
-      strutam0v_y - (strutd_x * strutad1vpp_z_2 + (strutd_y * strutad0v_x_2 + strutd_z * strutad0v_y_2))));
-  g[0] = g_strut;
-  g[1] = g_strut_2;
+  const Real rate_strut_2 = strutad1_y_2 * strutam0v_y - strutd_y * strutad0v_x_2 - (strutd_z * strutad0v_y_2
+      - (strutad1_x_2 * strutam0v_x + (strutad1p_z_2 * strutam1vpp_z + strutd_x * strutad1vpp_z_2)));
+  g[0] = -g_strut;
+  g[1] = -g_strut_2;
   g[2] = g_tie_rod;
-  g_rate[0] = rate_strut;
+  g_rate[0] = -rate_strut;
   g_rate[1] = rate_strut_2;
   g_rate[2] = Real(0.0);
 }
@@ -2092,7 +2085,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real q101 = q1d1 * state.y[1];
   const Real q102 = q1d2 * state.y[1];
   const Real q103 = q1d3 * state.y[1];
-  const Real q1r0_x = q122 + q133 - Real(1.0);
+  const Real q1r0_x = q133 + (q122 - Real(1.0));
   const Real q1r0_y = q112 - q103;
   const Real q1r0_z = q113 + q102;
   const Real q1r1_x = q112 + q103;
@@ -2105,10 +2098,10 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t35 = q1r1_x * Real(0.01) - Real(0.34);
   const Real strutax1p_x = q1r1_y * Real(0.03) - (t35 - q1r1_z * Real(0.2));
   const Real t44 = q1r2_x * Real(0.01) + Real(0.02);
-  const Real strutax1p_y = q1r2_y * Real(0.03) + (t44 + q1r2_z * Real(0.2));
+  const Real strutax1p_y = q1r2_z * Real(0.2) + (t44 + q1r2_y * Real(0.03));
   const Real strutax1_x = c0 * strutax1p_x + s0 * strutax1p_y;
   const Real strutax1_y = c0 * strutax1p_y - s0 * strutax1p_x;
-  const Real strutd_x = q1r0_y * Real(0.03) - (q1r0_x * Real(0.01) + q1r0_z * Real(0.2)) - Real(0.04);
+  const Real strutd_x = q1r0_z * Real(0.2) + Real(0.04) + (q1r0_x * Real(0.01) - q1r0_y * Real(0.03));
   const Real strutd_y = strutax1_x - Real(0.22999999999999998);
   const Real strutd_z = strutax1_y + Real(0.5800000000000001);
   const Real strutad1p_x = q1r1_y * Real(0.35112344158839165) + q1r1_x * Real(0.9363291775690445);
@@ -2118,49 +2111,49 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real strutad1_y = c0 * strutad1p_y - s0 * strutad1p_x;
   const Real strutad1p_x_2 = q1r1_y * Real(0.9156733568092016) - (q1r1_x * Real(0.3433775088034506) + q1r1_z *
       Real(0.2088879845220991));
-  const Real strutad1p_y_2 = q1r2_y * Real(0.9156733568092016) + (q1r2_x * Real(0.3433775088034506) - q1r2_z *
-      Real(0.2088879845220991));
-  const Real strutad1p_z_2 = q1r0_y * Real(0.9156733568092016) - (q1r0_x * Real(0.3433775088034506) - q1r0_z *
-      Real(0.2088879845220991));
-  const Real strutad1_x_2 = c0 * strutad1p_x_2 + s0 * strutad1p_y_2;
-  const Real strutad1_y_2 = c0 * strutad1p_y_2 - s0 * strutad1p_x_2;
+  const Real strutad1p_y_2 = q1r2_z * Real(0.2088879845220991) - (q1r2_x * Real(0.3433775088034506) + q1r2_y *
+      Real(0.9156733568092016));
+  const Real strutad1p_z_2 = q1r0_x * Real(0.3433775088034506) - (q1r0_z * Real(0.2088879845220991) + q1r0_y *
+      Real(0.9156733568092016));
+  const Real strutad1_x_2 = c0 * strutad1p_x_2 - s0 * strutad1p_y_2;
+  const Real strutad1_y_2 = c0 * strutad1p_y_2 + s0 * strutad1p_x_2;
   const detail::Angle<Real> expression = detail::Angle<Real>(state.t) * model.rate;
   Real s, c;
   detail::sine_cosine(expression, s, c);
   const Real expression_2 = Real(1.0) - c;
   const Real expression_3 = expression_2 * model.c1;
-  const Real tie_rodbx1p_x = q1r1_y * Real(0.02) + (q1r1_z * Real(0.07) + (Real(0.34) - q1r1_x * Real(0.14)));
-  const Real tie_rodbx1p_y = q1r2_y * Real(0.02) + (q1r2_z * Real(0.07) + (Real(0.02) + q1r2_x * Real(0.14)));
+  const Real tie_rodbx1p_x = Real(0.34) - q1r1_x * Real(0.14) + (q1r1_z * Real(0.07) + q1r1_y * Real(0.02));
+  const Real tie_rodbx1p_y = Real(0.02) + q1r2_x * Real(0.14) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02));
   const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
   const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
-  const Real tie_rodd_x = q1r0_z * Real(0.07) + (q1r0_x * Real(0.14) - q1r0_y * Real(0.02)) + Real(0.14);
+  const Real tie_rodd_x = q1r0_z * Real(0.07) + Real(0.14) + (q1r0_x * Real(0.14) - q1r0_y * Real(0.02));
   const Real tie_rodd_y = expression_3 - tie_rodbx1_x;
   const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
   const Real struts0an0_z = strutd_y * strutad1_y - strutd_z * strutad1_x;
-  const Real struts0am_z = strutax1_y * strutad1_x + (struts0an0_z - strutax1_x * strutad1_y);
-  const Real struts0af1_y = q1r2_y * strutad1p_y + (q1r0_y * strutad1p_z + q1r1_y * strutad1p_x);
-  const Real struts0af1_z = q1r2_z * strutad1p_y - (q1r0_z * strutad1p_z - q1r1_z * strutad1p_x);
-  const Real struts0an0_x = strutd_x * strutad1_y - strutd_z * strutad1p_z;
-  const Real struts0an0_y = strutd_x * strutad1_x - strutd_y * strutad1p_z;
+  const Real struts0am_z = struts0an0_z - (strutax1_x * strutad1_y - strutax1_y * strutad1_x);
+  const Real struts0af1_y = q1r1_y * strutad1p_x + (q1r0_y * strutad1p_z + q1r2_y * strutad1p_y);
+  const Real struts0af1_z = q1r1_z * strutad1p_x - (q1r0_z * strutad1p_z - q1r2_z * strutad1p_y);
+  const Real struts0an0_x = strutd_x * strutad1_y + strutd_z * strutad1p_z;
+  const Real struts0an0_y = strutd_x * strutad1_x + strutd_y * strutad1p_z;
   const Real struts0an1p_x = c0 * struts0an0_x + s0 * struts0an0_y;
   const Real struts0an1p_y = c0 * struts0an0_y - s0 * struts0an0_x;
-  const Real struts0am_x = Real(0.03) * struts0af1_z - (Real(0.2) * struts0af1_y + (q1r2_x * struts0an1p_y -
-      (q1r0_x * struts0an0_z - q1r1_x * struts0an1p_x)));
-  const Real struts0af1_x = q1r2_x * strutad1p_y - (q1r0_x * strutad1p_z + q1r1_x * strutad1p_x);
-  const Real struts0am_y = Real(0.2) * struts0af1_x - (Real(0.01) * struts0af1_z + (q1r2_y * struts0an1p_y +
-      (q1r0_y * struts0an0_z - q1r1_y * struts0an1p_x)));
-  const Real struts0am_z_2 = Real(0.03) * struts0af1_x - (Real(0.01) * struts0af1_y - (q1r2_z * struts0an1p_y
-      - (q1r0_z * struts0an0_z + q1r1_z * struts0an1p_x)));
-  const Real struts1an0_z = strutd_y * strutad1_y_2 - strutd_z * strutad1_x_2;
-  const Real struts1af1_y = q1r2_y * strutad1p_y_2 + (q1r0_y * strutad1p_z_2 + q1r1_y * strutad1p_x_2);
-  const Real struts1af1_z = q1r2_z * strutad1p_y_2 - (q1r0_z * strutad1p_z_2 - q1r1_z * strutad1p_x_2);
-  const Real struts1an0_x = strutd_x * strutad1_y_2 - strutd_z * strutad1p_z_2;
+  const Real struts0am_x = q1r2_x * struts0an1p_y + (q1r1_x * struts0an1p_x + (q1r0_x * struts0an0_z -
+      (Real(0.2) * struts0af1_y - Real(0.03) * struts0af1_z)));
+  const Real struts0af1_x = q1r1_x * strutad1p_x + (q1r0_x * strutad1p_z - q1r2_x * strutad1p_y);
+  const Real struts0am_y = q1r2_y * struts0an1p_y - (q1r1_y * struts0an1p_x + (q1r0_y * struts0an0_z +
+      (Real(0.01) * struts0af1_z + Real(0.2) * struts0af1_x)));
+  const Real struts0am_z_2 = q1r2_z * struts0an1p_y - (q1r1_z * struts0an1p_x - (q1r0_z * struts0an0_z +
+      (Real(0.01) * struts0af1_y + Real(0.03) * struts0af1_x)));
+  const Real struts1an0_z = strutd_y * strutad1_y_2 + strutd_z * strutad1_x_2;
+  const Real struts1af1_y = q1r2_y * strutad1p_y_2 + (q1r0_y * strutad1p_z_2 - q1r1_y * strutad1p_x_2);
+  const Real struts1af1_z = q1r2_z * strutad1p_y_2 - (q1r0_z * strutad1p_z_2 + q1r1_z * strutad1p_x_2);
+  const Real struts1an0_x = strutd_x * strutad1_y_2 + strutd_z * strutad1p_z_2;
   const Real struts1an0_y = strutd_x * strutad1_x_2 - strutd_y * strutad1p_z_2;
-  const Real struts1an1p_x = c0 * struts1an0_x + s0 * struts1an0_y;
-  const Real struts1an1p_y = c0 * struts1an0_y - s0 * struts1an0_x;
-  const Real struts1af1_x = q1r2_x * strutad1p_y_2 - (q1r0_x * strutad1p_z_2 + q1r1_x * strutad1p_x_2);
-  const Real struts1am_y = Real(0.2) * struts1af1_x - (Real(0.01) * struts1af1_z + (q1r2_y * struts1an1p_y +
-      (q1r0_y * struts1an0_z - q1r1_y * struts1an1p_x)));
+  const Real struts1an1p_x = c0 * struts1an0_x - s0 * struts1an0_y;
+  const Real struts1an1p_y = c0 * struts1an0_y + s0 * struts1an0_x;
+  const Real struts1af1_x = q1r2_x * strutad1p_y_2 - (q1r0_x * strutad1p_z_2 - q1r1_x * strutad1p_x_2);
+  const Real struts1am_y = q1r2_y * struts1an1p_y + (q1r1_y * struts1an1p_x + (q1r0_y * struts1an0_z +
+      (Real(0.01) * struts1af1_z - Real(0.2) * struts1af1_x)));
   const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
   const Real tie_rods0bf0_y = tie_rodd_z * Real(3.123475237772121);
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
@@ -2171,34 +2164,33 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y + (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
   const Real tie_rods0bm_y = Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x;
   const Real derivative = s * model.c2;
-  const Real tie_rods0at = tie_rods0bf0_x * derivative;
-  const Real t294 = Real(1.0) / struts0am_y;
-  const Real t295 = struts1am_y * t294;
-  const Real t307 = struts0am_z_2 * t295 - (Real(0.03) * struts1af1_x - (Real(0.01) * struts1af1_y - (q1r2_z *
-      struts1an1p_y - (q1r0_z * struts1an0_z + q1r1_z * struts1an1p_x))));
-  const Real t308 = tie_rods0bm_y * t294;
-  const Real t313 = Real(1.0) / (struts0am_x * t295 - (Real(0.03) * struts1af1_z - (Real(0.2) * struts1af1_y +
-      (q1r2_x * struts1an1p_y - (q1r0_x * struts1an0_z - q1r1_x * struts1an1p_x)))));
-  const Real t314 = (struts0am_x * t308 - (Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z)) * t313;
-  const Real t319 = Real(1.0) / (t307 * t314 - (struts0am_z_2 * t308 - (Real(0.14) * tie_rods0bf1_y -
+  const Real t293 = Real(1.0) / struts0am_y;
+  const Real t294 = struts1am_y * t293;
+  const Real t306 = struts0am_z_2 * t294 - (q1r2_z * struts1an1p_y + (q1r1_z * struts1an1p_x - (q1r0_z *
+      struts1an0_z + (Real(0.01) * struts1af1_y - Real(0.03) * struts1af1_x))));
+  const Real t307 = tie_rods0bm_y * t293;
+  const Real t312 = Real(1.0) / (struts0am_x * t294 - (q1r2_x * struts1an1p_y - (q1r1_x * struts1an1p_x +
+      (q1r0_x * struts1an0_z - (Real(0.2) * struts1af1_y - Real(0.03) * struts1af1_z)))));
+  const Real t313 = (struts0am_x * t307 - (Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z)) * t312;
+  const Real t318 = Real(1.0) / (t306 * t313 - (struts0am_z_2 * t307 + (Real(0.14) * tie_rods0bf1_y -
       Real(0.02) * tie_rods0bf1_x)));
-  const Real t323 = struts0am_z * t295 - (strutax1_y * strutad1_x_2 + (struts1an0_z - strutax1_x *
-      strutad1_y_2));
-  const Real t329 = t319 * (t314 * t323 - (struts0am_z * t308 - (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y
+  const Real t322 = struts0am_z * t294 + (struts1an0_z - (strutax1_x * strutad1_y_2 + strutax1_y *
+      strutad1_x_2));
+  const Real t328 = t318 * (t313 * t322 - (struts0am_z * t307 - (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y
       * tie_rods0bf0_x)));
-  const Real t332 = t313 * (t323 - t307 * t329);
-  const Real t337 = t294 * (struts0am_z_2 * t329 - (struts0am_z - struts0am_x * t332));
-  const Real t342 = tie_rods0at * t319;
-  const Real t344 = t313 * (t307 * t342);
-  const Real t349 = t332 * state.z[0] + t344;
-  const Real t350 = t337 * state.z[0] + t294 * (struts0am_x * t344 - struts0am_z_2 * t342);
-  const Real t351 = t329 * state.z[0] - t342;
-  const Real strutam1t_x = Real(0.2) * t350 - Real(0.03) * t351;
-  const Real strutam1t_y = Real(0.01) * t351 + Real(0.2) * t349;
+  const Real t331 = t312 * (t322 - t306 * t328);
+  const Real t336 = t293 * (struts0am_x * t331 - (struts0am_z - struts0am_z_2 * t328));
+  const Real t342 = t318 * (tie_rods0bf0_x * derivative);
+  const Real t344 = t342 * (t306 * t312);
+  const Real t349 = t331 * state.z[0] + t344;
+  const Real t350 = t336 * state.z[0] + t293 * (struts0am_x * t344 - struts0am_z_2 * t342);
+  const Real t351 = t328 * state.z[0] - t342;
+  const Real strutam1t_x = Real(0.2) * t350 + Real(0.03) * t351;
+  const Real strutam1t_y = Real(0.01) * t351 - Real(0.2) * t349;
   const Real strutam1t_z = Real(0.01) * t350 + Real(0.03) * t349;
-  const Real strutam1vpp_x = q1r1_z * strutam1t_z + (q1r1_x * strutam1t_x - q1r1_y * strutam1t_y);
-  const Real strutam1vpp_y = q1r2_z * strutam1t_z - (q1r2_x * strutam1t_x + q1r2_y * strutam1t_y);
-  const Real strutam1vpp_z = q1r0_z * strutam1t_z - (q1r0_x * strutam1t_x - q1r0_y * strutam1t_y);
+  const Real strutam1vpp_x = q1r1_z * strutam1t_z + (q1r1_x * strutam1t_x + q1r1_y * strutam1t_y);
+  const Real strutam1vpp_y = q1r2_z * strutam1t_z - (q1r2_x * strutam1t_x - q1r2_y * strutam1t_y);
+  const Real strutam1vpp_z = q1r0_z * strutam1t_z - (q1r0_x * strutam1t_x + q1r0_y * strutam1t_y);
   const Real strutam1vp_x = c0 * strutam1vpp_x + s0 * strutam1vpp_y;
   const Real strutam1vp_y = c0 * strutam1vpp_y - s0 * strutam1vpp_x;
   const Real strutam0t_x = strutax1_y * state.z[0];
@@ -2208,9 +2200,9 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real strutad1t_x = Real(0.35112344158839165) * t351;
   const Real strutad1t_y = Real(0.9363291775690445) * t351;
   const Real strutad1t_z = Real(0.35112344158839165) * t349 - Real(0.9363291775690445) * t350;
-  const Real strutad1vpp_x = q1r1_z * strutad1t_z - (q1r1_x * strutad1t_x - q1r1_y * strutad1t_y);
-  const Real strutad1vpp_y = q1r2_z * strutad1t_z + (q1r2_x * strutad1t_x + q1r2_y * strutad1t_y);
-  const Real strutad1vpp_z = q1r0_z * strutad1t_z + (q1r0_x * strutad1t_x - q1r0_y * strutad1t_y);
+  const Real strutad1vpp_x = q1r1_z * strutad1t_z + (q1r1_x * strutad1t_x - q1r1_y * strutad1t_y);
+  const Real strutad1vpp_y = q1r2_z * strutad1t_z - (q1r2_x * strutad1t_x + q1r2_y * strutad1t_y);
+  const Real strutad1vpp_z = q1r0_z * strutad1t_z - (q1r0_x * strutad1t_x - q1r0_y * strutad1t_y);
   const Real strutad1vp_x = c0 * strutad1vpp_x + s0 * strutad1vpp_y;
   const Real strutad1vp_y = c0 * strutad1vpp_y - s0 * strutad1vpp_x;
   const Real strutad0t_x = strutad1_y * state.z[0];
@@ -2218,84 +2210,83 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real strutad0v_x = strutad1vp_x - strutad0t_x;
   const Real strutad0v_y = strutad1vp_y + strutad0t_y;
   const Real strutam1a_x = t350 * strutam1t_z + t351 * strutam1t_y;
-  const Real strutam1a_y = t349 * strutam1t_z - t351 * strutam1t_x;
-  const Real strutam1a_z = t349 * strutam1t_y + t350 * strutam1t_x;
-  const Real strutam1app_x = q1r1_z * strutam1a_z - (q1r1_x * strutam1a_x - q1r1_y * strutam1a_y);
-  const Real strutam1app_y = q1r2_z * strutam1a_z + (q1r2_x * strutam1a_x + q1r2_y * strutam1a_y);
-  const Real strutam1app_z = q1r0_z * strutam1a_z + (q1r0_x * strutam1a_x - q1r0_y * strutam1a_y);
+  const Real strutam1a_y = t349 * strutam1t_z + t351 * strutam1t_x;
+  const Real strutam1a_z = t349 * strutam1t_y - t350 * strutam1t_x;
+  const Real strutam1app_x = q1r1_z * strutam1a_z + (q1r1_x * strutam1a_x - q1r1_y * strutam1a_y);
+  const Real strutam1app_y = q1r2_z * strutam1a_z - (q1r2_x * strutam1a_x + q1r2_y * strutam1a_y);
+  const Real strutam1app_z = q1r0_z * strutam1a_z - (q1r0_x * strutam1a_x - q1r0_y * strutam1a_y);
   const Real strutam0b_x = strutam1vp_x + strutam0v_x;
   const Real strutam0b_y = strutam1vp_y + strutam0v_y;
-  const Real strutam0a_x = state.z[0] * strutam0b_y + (c0 * strutam1app_x + s0 * strutam1app_y);
-  const Real strutam0a_y = state.z[0] * strutam0b_x - (c0 * strutam1app_y - s0 * strutam1app_x);
+  const Real strutam0a_x = state.z[0] * strutam0b_y - (c0 * strutam1app_x + s0 * strutam1app_y);
+  const Real strutam0a_y = state.z[0] * strutam0b_x + (c0 * strutam1app_y - s0 * strutam1app_x);
   const Real strutad1a_x = t350 * strutad1t_z - t351 * strutad1t_y;
   const Real strutad1a_y = t349 * strutad1t_z + t351 * strutad1t_x;
   const Real strutad1a_z = t349 * strutad1t_y + t350 * strutad1t_x;
-  const Real strutad1app_x = q1r1_z * strutad1a_z + (q1r1_x * strutad1a_x - q1r1_y * strutad1a_y);
-  const Real strutad1app_y = q1r2_z * strutad1a_z - (q1r2_x * strutad1a_x + q1r2_y * strutad1a_y);
-  const Real strutad1app_z = q1r0_z * strutad1a_z - (q1r0_x * strutad1a_x - q1r0_y * strutad1a_y);
+  const Real strutad1app_x = q1r1_y * strutad1a_y - (q1r1_x * strutad1a_x - q1r1_z * strutad1a_z);
+  const Real strutad1app_y = q1r2_y * strutad1a_y + (q1r2_x * strutad1a_x + q1r2_z * strutad1a_z);
+  const Real strutad1app_z = q1r0_y * strutad1a_y - (q1r0_x * strutad1a_x + q1r0_z * strutad1a_z);
   const Real strutad0b_x = strutad1vp_x + strutad0v_x;
   const Real strutad0b_y = strutad1vp_y + strutad0v_y;
-  const Real strutad0a_x = state.z[0] * strutad0b_y - (c0 * strutad1app_x + s0 * strutad1app_y);
-  const Real strutad0a_y = state.z[0] * strutad0b_x + (c0 * strutad1app_y - s0 * strutad1app_x);
-  const Real bias_strut = Real(2.0) * (strutam0v_y * strutad0v_y + (strutam1vpp_z * strutad1vpp_z +
-      strutam0v_x * strutad0v_x)) + (strutd_z * strutad0a_y - (strutd_y * strutad0a_x + (strutd_x *
-      strutad1app_z - (strutad1_y * strutam0a_y + (strutad1p_z * strutam1app_z - strutad1_x *
-      strutam0a_x)))));
-  const Real strutad1t_x_2 = Real(0.2088879845220991) * t350 + Real(0.9156733568092016) * t351;
-  const Real strutad1t_y_2 = Real(0.3433775088034506) * t351 - Real(0.2088879845220991) * t349;
+  const Real strutad0a_x = state.z[0] * strutad0b_y + (c0 * strutad1app_x + s0 * strutad1app_y);
+  const Real strutad0a_y = state.z[0] * strutad0b_x - (c0 * strutad1app_y - s0 * strutad1app_x);
+  const Real bias_strut = strutad1_y * strutam0a_y + Real(2.0) * (strutam0v_y * strutad0v_y + (strutam1vpp_z *
+      strutad1vpp_z + strutam0v_x * strutad0v_x)) - (strutd_y * strutad0a_x + (strutad1p_z * strutam1app_z -
+      strutd_x * strutad1app_z) + (strutad1_x * strutam0a_x - strutd_z * strutad0a_y));
+  const Real strutad1t_x_2 = Real(0.2088879845220991) * t350 - Real(0.9156733568092016) * t351;
+  const Real strutad1t_y_2 = Real(0.3433775088034506) * t351 + Real(0.2088879845220991) * t349;
   const Real strutad1t_z_2 = Real(0.3433775088034506) * t350 + Real(0.9156733568092016) * t349;
-  const Real strutad1vpp_x_2 = q1r1_z * strutad1t_z_2 - (q1r1_x * strutad1t_x_2 + q1r1_y * strutad1t_y_2);
-  const Real strutad1vpp_y_2 = q1r2_z * strutad1t_z_2 + (q1r2_x * strutad1t_x_2 - q1r2_y * strutad1t_y_2);
-  const Real strutad1vpp_z_2 = q1r0_z * strutad1t_z_2 + (q1r0_x * strutad1t_x_2 + q1r0_y * strutad1t_y_2);
+  const Real strutad1vpp_x_2 = q1r1_z * strutad1t_z_2 - (q1r1_x * strutad1t_x_2 - q1r1_y * strutad1t_y_2);
+  const Real strutad1vpp_y_2 = q1r2_z * strutad1t_z_2 + (q1r2_x * strutad1t_x_2 + q1r2_y * strutad1t_y_2);
+  const Real strutad1vpp_z_2 = q1r0_z * strutad1t_z_2 + (q1r0_x * strutad1t_x_2 - q1r0_y * strutad1t_y_2);
   const Real strutad1vp_x_2 = c0 * strutad1vpp_x_2 + s0 * strutad1vpp_y_2;
   const Real strutad1vp_y_2 = c0 * strutad1vpp_y_2 - s0 * strutad1vpp_x_2;
   const Real strutad0t_x_2 = strutad1_y_2 * state.z[0];
   const Real strutad0t_y_2 = strutad1_x_2 * state.z[0];
-  const Real strutad0v_x_2 = strutad1vp_x_2 - strutad0t_x_2;
+  const Real strutad0v_x_2 = strutad1vp_x_2 + strutad0t_x_2;
   const Real strutad0v_y_2 = strutad1vp_y_2 + strutad0t_y_2;
   const Real strutad1a_x_2 = t350 * strutad1t_z_2 + t351 * strutad1t_y_2;
-  const Real strutad1a_y_2 = t349 * strutad1t_z_2 + t351 * strutad1t_x_2;
-  const Real strutad1a_z_2 = t349 * strutad1t_y_2 - t350 * strutad1t_x_2;
-  const Real strutad1app_x_2 = q1r1_z * strutad1a_z_2 - (q1r1_x * strutad1a_x_2 - q1r1_y * strutad1a_y_2);
-  const Real strutad1app_y_2 = q1r2_z * strutad1a_z_2 + (q1r2_x * strutad1a_x_2 + q1r2_y * strutad1a_y_2);
-  const Real strutad1app_z_2 = q1r0_z * strutad1a_z_2 + (q1r0_x * strutad1a_x_2 - q1r0_y * strutad1a_y_2);
+  const Real strutad1a_y_2 = t349 * strutad1t_z_2 - t351 * strutad1t_x_2;
+  const Real strutad1a_z_2 = t349 * strutad1t_y_2 + t350 * strutad1t_x_2;
+  const Real strutad1app_x_2 = q1r1_z * strutad1a_z_2 + (q1r1_x * strutad1a_x_2 - q1r1_y * strutad1a_y_2);
+  const Real strutad1app_y_2 = q1r2_z * strutad1a_z_2 - (q1r2_x * strutad1a_x_2 + q1r2_y * strutad1a_y_2);
+  const Real strutad1app_z_2 = q1r0_z * strutad1a_z_2 - (q1r0_x * strutad1a_x_2 - q1r0_y * strutad1a_y_2);
   const Real strutad0b_x_2 = strutad1vp_x_2 + strutad0v_x_2;
   const Real strutad0b_y_2 = strutad1vp_y_2 + strutad0v_y_2;
-  const Real strutad0a_x_2 = state.z[0] * strutad0b_y_2 + (c0 * strutad1app_x_2 + s0 * strutad1app_y_2);
-  const Real strutad0a_y_2 = state.z[0] * strutad0b_x_2 - (c0 * strutad1app_y_2 - s0 * strutad1app_x_2);
-  const Real tie_rodbm1t_x = Real(0.07) * t350 - Real(0.02) * t351;
-  const Real tie_rodbm1t_y = Real(0.14) * t351 + Real(0.07) * t349;
+  const Real strutad0a_x_2 = state.z[0] * strutad0b_y_2 - (c0 * strutad1app_x_2 + s0 * strutad1app_y_2);
+  const Real strutad0a_y_2 = state.z[0] * strutad0b_x_2 + (c0 * strutad1app_y_2 - s0 * strutad1app_x_2);
+  const Real tie_rodbm1t_x = Real(0.07) * t350 + Real(0.02) * t351;
+  const Real tie_rodbm1t_y = Real(0.14) * t351 - Real(0.07) * t349;
   const Real tie_rodbm1t_z = Real(0.14) * t350 + Real(0.02) * t349;
-  const Real tie_rodbm1vpp_x = q1r1_z * tie_rodbm1t_z + (q1r1_x * tie_rodbm1t_x - q1r1_y * tie_rodbm1t_y);
-  const Real tie_rodbm1vpp_y = q1r2_z * tie_rodbm1t_z - (q1r2_x * tie_rodbm1t_x + q1r2_y * tie_rodbm1t_y);
-  const Real tie_rodbm1vpp_z = q1r0_z * tie_rodbm1t_z - (q1r0_x * tie_rodbm1t_x - q1r0_y * tie_rodbm1t_y);
+  const Real tie_rodbm1vpp_x = q1r1_z * tie_rodbm1t_z + (q1r1_x * tie_rodbm1t_x + q1r1_y * tie_rodbm1t_y);
+  const Real tie_rodbm1vpp_y = q1r2_z * tie_rodbm1t_z - (q1r2_x * tie_rodbm1t_x - q1r2_y * tie_rodbm1t_y);
+  const Real tie_rodbm1vpp_z = q1r0_z * tie_rodbm1t_z - (q1r0_x * tie_rodbm1t_x + q1r0_y * tie_rodbm1t_y);
   const Real tie_rodbm1vp_x = c0 * tie_rodbm1vpp_x + s0 * tie_rodbm1vpp_y;
   const Real tie_rodbm1vp_y = c0 * tie_rodbm1vpp_y - s0 * tie_rodbm1vpp_x;
   const Real tie_rodbm0t_x = tie_rodbx1_y * state.z[0];
   const Real tie_rodbm0t_y = tie_rodbx1_x * state.z[0];
   const Real tie_rodbm0v_y = tie_rodbm1vp_y + tie_rodbm0t_y;
-  const Real tie_roddv_y = tie_rodbm0t_x - (derivative + tie_rodbm1vp_x);
+  const Real tie_roddv_y = tie_rodbm1vp_x + (derivative - tie_rodbm0t_x);
   const Real derivative_2 = c * model.c3;
   const Real tie_rodbm1a_x = t350 * tie_rodbm1t_z + t351 * tie_rodbm1t_y;
-  const Real tie_rodbm1a_y = t349 * tie_rodbm1t_z - t351 * tie_rodbm1t_x;
-  const Real tie_rodbm1a_z = t349 * tie_rodbm1t_y + t350 * tie_rodbm1t_x;
-  const Real tie_rodbm1app_x = q1r1_z * tie_rodbm1a_z - (q1r1_x * tie_rodbm1a_x - q1r1_y * tie_rodbm1a_y);
-  const Real tie_rodbm1app_y = q1r2_z * tie_rodbm1a_z + (q1r2_x * tie_rodbm1a_x + q1r2_y * tie_rodbm1a_y);
-  const Real tie_rodbm1app_z = q1r0_z * tie_rodbm1a_z + (q1r0_x * tie_rodbm1a_x - q1r0_y * tie_rodbm1a_y);
+  const Real tie_rodbm1a_y = t349 * tie_rodbm1t_z + t351 * tie_rodbm1t_x;
+  const Real tie_rodbm1a_z = t349 * tie_rodbm1t_y - t350 * tie_rodbm1t_x;
+  const Real tie_rodbm1app_x = q1r1_z * tie_rodbm1a_z + (q1r1_x * tie_rodbm1a_x - q1r1_y * tie_rodbm1a_y);
+  const Real tie_rodbm1app_y = q1r2_z * tie_rodbm1a_z - (q1r2_x * tie_rodbm1a_x + q1r2_y * tie_rodbm1a_y);
+  const Real tie_rodbm1app_z = q1r0_z * tie_rodbm1a_z - (q1r0_x * tie_rodbm1a_x - q1r0_y * tie_rodbm1a_y);
   const Real tie_rodbm0b_x = tie_rodbm0t_x - Real(2.0) * tie_rodbm1vp_x;
   const Real tie_rodbm0b_y = tie_rodbm1vp_y + tie_rodbm0v_y;
-  const Real tie_rodbm0a_y = state.z[0] * tie_rodbm0b_x + (c0 * tie_rodbm1app_y - s0 * tie_rodbm1app_x);
-  const Real tie_rodda_y = state.z[0] * tie_rodbm0b_y + (s0 * tie_rodbm1app_y + (derivative_2 + c0 *
+  const Real tie_rodbm0a_y = state.z[0] * tie_rodbm0b_x - (c0 * tie_rodbm1app_y - s0 * tie_rodbm1app_x);
+  const Real tie_rodda_y = state.z[0] * tie_rodbm0b_y - (s0 * tie_rodbm1app_y - (derivative_2 - c0 *
       tie_rodbm1app_x));
-  const Real t676 = Real(2.0) * (strutam0v_y * strutad0v_y_2 + (strutam1vpp_z * strutad1vpp_z_2 + strutam0v_x
-      * strutad0v_x_2)) - (t295 * bias_strut - (strutd_z * strutad0a_y_2 - (strutd_y * strutad0a_x_2 -
-      (strutd_x * strutad1app_z_2 + (strutad1_y_2 * strutam0a_y + (strutad1p_z_2 * strutam1app_z -
-      strutad1_x_2 * strutam0a_x))))));
-  const Real t687 = t319 * (Real(3.123475237772121) * (tie_rodd_y * tie_rodda_y - (tie_rodd_z * tie_rodbm0a_y
-      + (tie_rodd_x * tie_rodbm1app_z - (tie_roddv_y * tie_roddv_y + (tie_rodbm1vpp_z * tie_rodbm1vpp_z +
-      tie_rodbm0v_y * tie_rodbm0v_y))))) + (t308 * bias_strut + t314 * t676));
-  const Real t690 = t313 * (t676 - t307 * t687);
-  const Real t695 = t294 * (struts0am_z_2 * t687 + (bias_strut + struts0am_x * t690));
+  const Real t676 = t294 * bias_strut - (strutd_z * strutad0a_y_2 + Real(2.0) * (strutam0v_y * strutad0v_y_2 +
+      (strutam1vpp_z * strutad1vpp_z_2 + strutam0v_x * strutad0v_x_2)) - (strutad1_x_2 * strutam0a_x -
+      (strutad1p_z_2 * strutam1app_z + strutd_x * strutad1app_z_2) + (strutad1_y_2 * strutam0a_y + strutd_y *
+      strutad0a_x_2)));
+  const Real t687 = t318 * (t313 * t676 - (t307 * bias_strut + Real(3.123475237772121) * (tie_rodd_y *
+      tie_rodda_y - (tie_rodd_z * tie_rodbm0a_y - (tie_rodbm1vpp_z * tie_rodbm1vpp_z + tie_rodd_x *
+      tie_rodbm1app_z + (tie_rodbm0v_y * tie_rodbm0v_y + tie_roddv_y * tie_roddv_y))))));
+  const Real t690 = t312 * (t676 - t306 * t687);
+  const Real t695 = t293 * (struts0am_x * t690 - (bias_strut - struts0am_z_2 * t687));
   const Real h1at1_x = q1r1_y * Real(1.14) - q1r1_z * Real(6.08);
   const Real h1at1_y = q1r2_y * Real(1.14) - q1r2_z * Real(6.08);
   const Real S1at1r0_y = q1r1_z * Real(0.1824) - q1r1_y * Real(0.3842000000000001);
@@ -2304,20 +2295,20 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real S1at1r1_z = q1r2_z * Real(2.2228) - q1r2_y * Real(0.1824);
   const Real p_1_1f_x = q1r1_z * Real(1.14) + q1r1_y * Real(6.08);
   const Real p_1_1f_y = q1r2_z * Real(1.14) + q1r2_y * Real(6.08);
-  const Real p_1_1n_z = q1r0_x * Real(2.607) - (Real(0.02) * p_1_1f_x - Real(0.34) * p_1_1f_y);
+  const Real p_1_1n_z = Real(0.34) * p_1_1f_y - (Real(0.02) * p_1_1f_x - q1r0_x * Real(2.607));
   const Real t748 = q1r1_x * Real(0.1216) + q1r2_x * Real(2.0672);
-  const Real p_2_1n_z = q1r0_z * Real(0.1824) - (q1r0_y * Real(2.8728) + t748);
-  const Real p_3_1n_z = q1r0_y * Real(0.1824) - (q1r0_z * Real(1.0342) - t748 * Real(0.1875));
+  const Real p_2_1n_z = t748 + (q1r0_y * Real(2.8728) - q1r0_z * Real(0.1824));
+  const Real p_3_1n_z = t748 * Real(0.1875) - (q1r0_z * Real(1.0342) - q1r0_y * Real(0.1824));
   const Real h1c_x = h1at1_x - Real(13.770000000000001);
   const Real h1c_y = h1at1_y - Real(0.76);
   const Real h0b_x = c0 * h1c_x + s0 * h1c_y;
   const Real w1p_x = q1r0_x * state.z[0];
   const Real w1p_y = q1r0_y * state.z[0];
   const Real w1p_z = q1r0_z * state.z[0];
-  const Real spring_damper_ll = strutd_z * strutd_z + (strutd_x * strutd_x + strutd_y * strutd_y) +
-      Real(1e-18);
+  const Real spring_damper_ll = strutd_z * strutd_z + (strutd_y * strutd_y + (strutd_x * strutd_x +
+      Real(1e-18)));
   const Real spring_damper_l = detail::square_root(spring_damper_ll);
-  const Real spring_damper_rate = (strutd_z * strutam0v_y - (strutd_x * strutam1vpp_z - strutd_y *
+  const Real spring_damper_rate = (strutd_z * strutam0v_y + (strutd_x * strutam1vpp_z + strutd_y *
       strutam0v_x)) / spring_damper_l;
   const Real spring_damper_e = spring_damper_l - model.free_length;
   const Real spring_damper_T = spring_damper_e * model.stiffness - spring_damper_rate * model.damping;
@@ -2327,19 +2318,19 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real spring_damperf_z = strutd_z * spring_damper_Tl;
   const Real spring_damperfb1p_x = c0 * spring_damperf_y - s0 * spring_damperf_z;
   const Real spring_damperfb1p_y = c0 * spring_damperf_z + s0 * spring_damperf_y;
-  const Real spring_damperfb1_x = q1r2_x * spring_damperfb1p_y - (q1r0_x * spring_damperf_x + q1r1_x *
+  const Real spring_damperfb1_x = q1r2_x * spring_damperfb1p_y + (q1r0_x * spring_damperf_x - q1r1_x *
       spring_damperfb1p_x);
-  const Real spring_damperfb1_y = q1r2_y * spring_damperfb1p_y + (q1r0_y * spring_damperf_x + q1r1_y *
+  const Real spring_damperfb1_y = q1r2_y * spring_damperfb1p_y - (q1r0_y * spring_damperf_x - q1r1_y *
       spring_damperfb1p_x);
-  const Real spring_damperfb1_z = q1r2_z * spring_damperfb1p_y - (q1r0_z * spring_damperf_x - q1r1_z *
+  const Real spring_damperfb1_z = q1r2_z * spring_damperfb1p_y + (q1r0_z * spring_damperf_x + q1r1_z *
       spring_damperfb1p_x);
   const Real push1_0 = Real(0.2) * spring_damperfb1_y - Real(0.03) * spring_damperfb1_z;
   const Real push1_1 = Real(0.01) * spring_damperfb1_z - Real(0.2) * spring_damperfb1_x;
   const Real push1_2 = Real(0.01) * spring_damperfb1_y - Real(0.03) * spring_damperfb1_x;
   const Real wheel_centerx1p_x = q1r1_y * Real(0.06) + (t35 - q1r1_z * Real(0.12));
-  const Real wheel_centerx1p_y = q1r2_y * Real(0.06) - (t44 + q1r2_z * Real(0.12));
-  const Real expression_4 = c0 * wheel_centerx1p_y - (input.u[0] + s0 * wheel_centerx1p_x) -
-      Real(0.11750000000000002);
+  const Real wheel_centerx1p_y = q1r2_z * Real(0.12) + (t44 - q1r2_y * Real(0.06));
+  const Real expression_4 = s0 * wheel_centerx1p_x + (c0 * wheel_centerx1p_y + (input.u[0] +
+      Real(0.11750000000000002)));
   const Real expression_5 = expression_4 * model.tyre;
   const Real tyre_forcef1p_x = s0 * expression_5;
   const Real tyre_forcef1p_y = c0 * expression_5;
@@ -2361,64 +2352,60 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real rK1_x = Real(0.6499999999999999) * w1p_x;
   const Real rK1_y = Real(0.1824) * w1p_z + Real(0.3842000000000001) * w1p_y;
   const Real rK1_z = Real(2.2228) * w1p_z + Real(0.1824) * w1p_y;
-  const Real t921 = w1p_y * rK1_z;
-  const Real t922 = w1p_z * rK1_y;
-  const Real t924 = w1p_x * rK1_z;
-  const Real t925 = w1p_z * rK1_x;
-  const Real t927 = w1p_x * rK1_y;
-  const Real t928 = w1p_y * rK1_x;
   const Real ru1_x = t349 - Real(2.0) * w1p_x;
   const Real ru1_y = t350 - Real(2.0) * w1p_y;
-  const Real ru1_z = t351 + Real(2.0) * w1p_z;
+  const Real ru1_z = t351 - Real(2.0) * w1p_z;
   const Real rSu1_x = Real(0.6499999999999999) * ru1_x;
-  const Real rSu1_y = Real(0.1824) * ru1_z - Real(0.3842000000000001) * ru1_y;
-  const Real rSu1_z = Real(2.2228) * ru1_z - Real(0.1824) * ru1_y;
-  const Real ruh1 = Real(1.14) * ru1_y - Real(6.08) * ru1_z;
-  const Real ruw1 = t351 * ru1_z + (t349 * ru1_x + t350 * ru1_y);
+  const Real rSu1_y = Real(0.1824) * ru1_z + Real(0.3842000000000001) * ru1_y;
+  const Real rSu1_z = Real(2.2228) * ru1_z + Real(0.1824) * ru1_y;
+  const Real ruh1 = Real(1.14) * ru1_y + Real(6.08) * ru1_z;
+  const Real ruw1 = t350 * ru1_y + (t349 * ru1_x + t351 * ru1_z);
   const Real t960 = t350 * rSu1_z;
   const Real t961 = t351 * rSu1_y;
   const Real t964 = t349 * rSu1_z;
   const Real t965 = t351 * rSu1_x;
   const Real t968 = t349 * rSu1_y;
   const Real t969 = t350 * rSu1_x;
-  const Real ref1_x = t349 * ruh1 - (t695 * Real(6.08) + (tyre_forcef1_x + t687 * Real(1.14)));
-  const Real ref1_y = t350 * ruh1 + (t690 * Real(6.08) - (tyre_forcef1_y + Real(1.14) * ruw1));
-  const Real ref1_z = t351 * ruh1 + (Real(6.08) * ruw1 - (tyre_forcef1_z - t690 * Real(1.14)));
-  const Real ren1_x = t961 + (t960 + (tyre_forcem_x - t690 * Real(2.607)));
-  const Real ren1_y = t965 - (t964 + (t687 * Real(0.1824) + (tyre_forcem_y + t695 * Real(2.8728))));
-  const Real ren1_z = t969 + (t968 + (t695 * Real(0.1824) - (tyre_forcem_z - t687 * Real(1.0342))));
-  const Real rf1p_x = q1r1_z * ref1_z + (q1r1_x * ref1_x + q1r1_y * ref1_y);
-  const Real rf1p_y = q1r2_z * ref1_z - (q1r2_x * ref1_x - q1r2_y * ref1_y);
-  const Real tau_1_0 = ren1_x + (t922 - (t921 - (Real(6.08) * ra1_y + (push1_0 + Real(1.14) * ra1_z))));
-  const Real tau_1_1 = ren1_y - (t925 - (t924 - (push1_1 + Real(6.08) * ra1_x)));
-  const Real tau_1_2 = ren1_z + (t928 - (t927 + (push1_2 - Real(1.14) * ra1_x)));
-  const Real t1031 = (t329 * tau_1_2 - (t337 * tau_1_1 + (t332 * tau_1_0 + (Real(0.34) * rf1p_y - (Real(0.02)
-      * rf1p_x + (q1r0_z * ren1_z + (q1r0_y * ren1_y + (q1r0_x * ren1_x + (rQp0 + (strutax1_x *
-      spring_damperf_z - strutax1_y * spring_damperf_y)))))))))) / ((q1r1_x * q1r1_x + q1r2_x * q1r2_x) *
-      Real(0.6499999999999999) - (q1r1_y * S1at1r0_y - (q1r1_z * S1at1r0_z - (h1at1_x * Real(0.68) + (q1r2_y *
-      S1at1r1_y - (q1r2_z * S1at1r1_z - (h1at1_y * Real(0.04) - (t337 * (t329 * Real(0.1824) + (p_2_1n_z +
-      (p_2_1n_z + t337 * Real(2.8728)))) + (t329 * (t329 * Real(1.0342) - (p_3_1n_z + (p_3_1n_z - t337 *
-      Real(0.1824)))) - t332 * (p_1_1n_z + (p_1_1n_z - t332 * Real(2.607)))))))))) -
-      Real(4.612500000000001)));
+  const Real ref1_x = t695 * Real(6.08) - (t687 * Real(1.14) - (tyre_forcef1_x + t349 * ruh1));
+  const Real ref1_y = t690 * Real(6.08) - (t350 * ruh1 + (tyre_forcef1_y - Real(1.14) * ruw1));
+  const Real ref1_z = t690 * Real(1.14) + (t351 * ruh1 - (tyre_forcef1_z + Real(6.08) * ruw1));
+  const Real ren1_x = t690 * Real(2.607) + (t961 - (tyre_forcem_x + t960));
+  const Real ren1_y = t695 * Real(2.8728) - (t687 * Real(0.1824) - (t964 + (tyre_forcem_y - t965)));
+  const Real ren1_z = t695 * Real(0.1824) - (t687 * Real(1.0342) - (t968 - (tyre_forcem_z + t969)));
+  const Real rf1p_x = q1r1_x * ref1_x - (q1r1_y * ref1_y + q1r1_z * ref1_z);
+  const Real rf1p_y = q1r2_x * ref1_x + (q1r2_y * ref1_y + q1r2_z * ref1_z);
+  const Real t1005 = w1p_y * rK1_z - w1p_z * rK1_y;
+  const Real tau_1_0 = push1_0 + (ren1_x + (Real(6.08) * ra1_y + (Real(1.14) * ra1_z - t1005)));
+  const Real t1010 = w1p_x * rK1_z - w1p_z * rK1_x;
+  const Real tau_1_1 = ren1_y - (push1_1 + (Real(6.08) * ra1_x - t1010));
+  const Real t1014 = w1p_x * rK1_y - w1p_y * rK1_x;
+  const Real tau_1_2 = ren1_z + (push1_2 - (Real(1.14) * ra1_x - t1014));
+  const Real t1031 = (t328 * tau_1_2 - (q1r0_z * ren1_z + t331 * tau_1_0) + (Real(0.02) * rf1p_x + (q1r0_y *
+      ren1_y + (q1r0_x * ren1_x - (strutax1_y * spring_damperf_y - (strutax1_x * spring_damperf_z + rQp0)))) +
+      (Real(0.34) * rf1p_y - t336 * tau_1_1))) / (t336 * (t336 * Real(2.8728) - (t328 * Real(0.1824) +
+      (p_2_1n_z + p_2_1n_z))) - (t328 * (t336 * Real(0.1824) - (t328 * Real(1.0342) + (p_3_1n_z + p_3_1n_z)))
+      - (t331 * (t331 * Real(2.607) - (p_1_1n_z + p_1_1n_z)) + ((q1r1_x * q1r1_x + q1r2_x * q1r2_x) *
+      Real(0.6499999999999999) + Real(4.612500000000001) - (q1r1_y * S1at1r0_y - q1r1_z * S1at1r0_z) - (q1r2_y
+      * S1at1r1_y - q1r2_z * S1at1r1_z + (h1at1_x * Real(0.68) + h1at1_y * Real(0.04)))))));
   const Real ra1o_x_2 = ra1o_x + Real(0.02) * t1031;
   const Real ra1o_y_2 = ra1o_y + Real(0.34) * t1031;
   const Real ra1_x_2 = q1r1_x * ra1o_x_2 + q1r2_x * ra1o_y_2;
   const Real ra1_y_2 = q1r1_y * ra1o_x_2 - q1r2_y * ra1o_y_2;
   const Real ra1_z_2 = q1r1_z * ra1o_x_2 - q1r2_z * ra1o_y_2;
-  const Real t1051 = t687 - t1031 * (q1r0_z + t329);
-  const Real t1055 = t695 + t1031 * (q1r0_y - t337);
-  const Real tau_1_1_2 = Real(2.8728) * t1055 + (Real(0.1824) * t1051 + (t964 - (t965 - (tyre_forcem_y +
-      (Real(6.08) * ra1_x_2 - (t924 - (push1_1 + t925)))))));
-  const Real t1065 = t294 * tau_1_1_2;
-  const Real t1080 = t313 * (Real(2.607) * (t690 + t1031 * (q1r0_x - t332)) + (struts0am_x * t1065 - (t960 +
-      (t961 + (tyre_forcem_x + (Real(6.08) * ra1_y_2 + (Real(1.14) * ra1_z_2 - (t921 - (push1_0 +
-      t922)))))))));
-  const Real t1095 = t319 * (Real(1.0342) * t1051 + (Real(0.1824) * t1055 - (t307 * t1080 - (struts0am_z_2 *
-      t1065 + (t968 + (t969 - (tyre_forcem_z - (Real(1.14) * ra1_x_2 - (t927 + (push1_2 - t928))))))))));
-  const Real t1097 = t1080 + t314 * t1095;
-  lambda[0] = -(t308 * t1095 + (t1065 - t295 * t1097));
-  lambda[1] = t1097;
-  lambda[2] = t1095;
+  const Real t1051 = t687 - t1031 * (q1r0_z - t328);
+  const Real t1055 = t695 - t1031 * (q1r0_y - t336);
+  const Real tau_1_1_2 = Real(6.08) * ra1_x_2 - (Real(2.8728) * t1055 - (Real(0.1824) * t1051 + (push1_1 -
+      (t964 - (t965 - (tyre_forcem_y + t1010))))));
+  const Real t1064 = t293 * tau_1_1_2;
+  const Real t1078 = t312 * (struts0am_x * t1064 - (Real(6.08) * ra1_y_2 + (Real(1.14) * ra1_z_2 +
+      (Real(2.607) * (t690 - t1031 * (q1r0_x - t331)) + (push1_0 + (t961 - (t960 + (tyre_forcem_x +
+      t1005))))))));
+  const Real t1092 = t318 * (t306 * t1078 - (struts0am_z_2 * t1064 - (Real(1.14) * ra1_x_2 + (Real(1.0342) *
+      t1051 - (Real(0.1824) * t1055 + (push1_2 + (t968 - (t969 + (tyre_forcem_z - t1014)))))))));
+  const Real t1094 = t1078 - t313 * t1092;
+  lambda[0] = t294 * t1094 - (t1064 - t307 * t1092);
+  lambda[1] = t1094;
+  lambda[2] = -t1092;
 }
 
 // `input` may be a function that gives the Input at the state of a stage.

@@ -289,24 +289,14 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[5]) noexcept 
   const Real h3b_y = s3 * Real(0.5);
   const Real h1b_x = c1 * Real(0.5);
   const Real h1b_y = s1 * Real(0.5);
-  const Real w1_z = state.z[0] + state.z[1];
-  const Real w3_z = state.z[2] + state.z[3];
   const Real kW0w22 = state.z[0] * state.z[0];
-  const Real ka1o_x = s0 * kW0w22;
-  const Real ka1o_y = c0 * kW0w22;
-  const Real kQp1 = h1b_x * ka1o_y - h1b_y * ka1o_x;
-  const Real zw_1 = state.z[1] * (state.z[0] + w1_z);
-  const Real kdf1_x = h1b_x * zw_1;
-  const Real kdf1_y = h1b_y * zw_1;
+  const Real kQp1 = h1b_x * (c0 * kW0w22) - h1b_y * (s0 * kW0w22);
+  const Real zw_1 = state.z[1] * (state.z[0] + (state.z[0] + state.z[1]));
   const Real kW2w22 = state.z[2] * state.z[2];
-  const Real ka3o_x = s2 * kW2w22;
-  const Real ka3o_y = c2 * kW2w22;
-  const Real kQp3 = h3b_x * ka3o_y - h3b_y * ka3o_x;
-  const Real zw_3 = state.z[3] * (state.z[2] + w3_z);
-  const Real kdf3_x = h3b_x * zw_3;
-  const Real kdf3_y = h3b_y * zw_3;
-  const Real kn3c_z = c2 * kdf3_x - s2 * kdf3_y;
-  const Real kn1c_z = c0 * kdf1_x - s0 * kdf1_y;
+  const Real kQp3 = h3b_x * (c2 * kW2w22) - h3b_y * (s2 * kW2w22);
+  const Real zw_3 = state.z[3] * (state.z[2] + (state.z[2] + state.z[3]));
+  const Real kn3c_z = h3b_x * (c2 * zw_3) - h3b_y * (s2 * zw_3);
+  const Real kn1c_z = h1b_x * (c0 * zw_1) - h1b_y * (s0 * zw_1);
   k[0] = kn1c_z;
   k[1] = -kQp1;
   k[2] = kn3c_z;
@@ -374,26 +364,30 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real t91 = c3 * Real(3.0);
   const Real t92 = s4 * Real(3.0);
   const Real t93 = c2 * t90;
-  const Real t105 = Real(1.0) / (c2 * (c2 * t49) + (t57 * (t54 * t57) - Real(3.0) * (s1 * s1)) -
-      Real(3.75e-07));
+  const Real t105 = Real(1.0) / (t49 * (c2 * c2) + (t54 * (t57 * t57) - (s1 * (s1 * Real(3.0)) +
+      Real(3.75e-07))));
   const Real t106 = t80 * t105;
   const Real t112 = t85 * t105;
   const Real t114 = s2 * t84 - t80 * t112;
   const Real t116 = t93 * t105;
   const Real t118 = s2 * t90 - t80 * t116;
-  const Real t121 = Real(1.0) / (t80 * t106 + (Real(3.75e-07) - (s2 * t75 + (t60 * t73 - c1 * t74))));
+  const Real t121 = Real(1.0) / (t80 * t106 - (s2 * t75 + (t60 * t73 - (c1 * t74 + Real(3.75e-07)))));
   const Real t122 = t114 * t121;
   const Real t130 = t118 * t121;
-  const Real t135 = t114 * t130 - (t85 * t116 + (c4 * t92 - (t63 * t90 - s3 * t91)));
-  const Real t137 = Real(1.0) / (Real(3.0) * (s3 * s3 + c4 * c4) - (t114 * t122 - (t85 * t112 - (t63 * t84 -
-      Real(3.75e-07)))));
+  const Real t135 = t114 * t130 - (t85 * t116 - (t63 * t90 - (s3 * t91 + c4 * t92)));
+  const Real t137 = Real(1.0) / (t114 * t122 - (t85 * t112 - (t63 * t84 - (Real(3.75e-07) + Real(3.0) * (s3 *
+      s3 + c4 * c4)))));
   const Real t138 = t135 * t137;
-  const Real t146 = Real(1.0) / (t135 * t138 + (t118 * t130 - (t93 * t116 + (Real(3.75e-07) + (s4 * t92 - (t66
-      * t90 - c3 * t91))))));
-  const Real t151 = state.z[2] * (s2 * state.z[2]);
-  const Real t152 = state.z[2] * (c2 * state.z[2]);
+  const Real t146 = Real(1.0) / (t135 * t138 - (t118 * t130 - (t93 * t116 - (t66 * t90 - (c3 * t91 + (s4 * t92
+      + Real(3.75e-07)))))));
+  const Real t147 = state.z[2] * state.z[2];
+  const Real t148 = s2 * t147;
+  const Real t149 = c2 * t147;
   const Real w3_z = state.z[2] + state.z[3];
   const Real w1_z = state.z[0] + state.z[1];
+  const Real t152 = w1_z * w1_z;
+  const Real t155 = state.z[4] * state.z[4];
+  const Real t158 = w3_z * w3_z;
   const Real h2b_x = s2 * Real(1.5);
   const Real h2_x = h3b_x + h2b_x;
   const Real h0b_x = s0 * Real(1.5);
@@ -401,60 +395,55 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real rQp0 = h0_x * Real(9.81);
   const Real rW0w22 = state.z[0] * state.z[0];
   const Real ra1o_x = s0 * rW0w22;
-  const Real t174 = c0 * rW0w22;
-  const Real ra1o_y = Real(9.81) - t174;
+  const Real t170 = c0 * rW0w22;
+  const Real ra1o_y = Real(9.81) - t170;
   const Real rQp1 = h1b_x * ra1o_y + h1b_y * ra1o_x;
   const Real zw_1 = state.z[1] * (state.z[0] + w1_z);
-  const Real rdf1_x = h1b_x * zw_1;
-  const Real rdf1_y = h1b_y * zw_1;
   const Real rQp2 = h2_x * Real(9.81);
-  const Real ra3o_y = t152 - Real(9.81);
-  const Real rQp3 = h3b_x * ra3o_y - h3b_y * t151;
+  const Real ra3o_y = t149 - Real(9.81);
+  const Real rQp3 = h3b_x * ra3o_y - h3b_y * t148;
   const Real zw_3 = state.z[3] * (state.z[2] + w3_z);
-  const Real rdf3_x = h3b_x * zw_3;
-  const Real rdf3_y = h3b_y * zw_3;
   const Real rQp4 = s4 * Real(4.905);
-  const Real t201 = t43 * rQp3 - (s2 * rdf3_y - (rQp2 + c2 * rdf3_x));
-  const Real t205 = t50 * rQp1 + (s0 * rdf1_y - (rQp0 + c0 * rdf1_x));
-  const Real t206 = t54 * t205;
-  const Real t207 = Real(3.0) * rQp1;
-  const Real t208 = t49 * t201;
-  const Real t209 = Real(3.0) * rQp3;
-  const Real t210 = Real(3.0) * rQp4;
-  const Real t227 = c2 * t208 + (s1 * t207 - (t57 * t206 + (w1_z * (c1 * w1_z) - (t151 - ra1o_x))));
-  const Real t234 = t106 * t227 - (s2 * t208 + (c1 * t207 - (t60 * t206 - (w1_z * (s1 * w1_z) - (t152 -
-      t174)))));
-  const Real t244 = t122 * t234 + (t112 * t227 + (c4 * t210 + (s3 * t209 - (t63 * t208 - (w3_z * (c3 * w3_z) +
-      (t151 - state.z[4] * (s4 * state.z[4])))))));
-  const Real t258 = t146 * (t138 * t244 + (t130 * t234 + (t116 * t227 + (s4 * t210 + (c3 * t209 - (t66 * t208
-      + (w3_z * (s3 * w3_z) + (t152 - state.z[4] * (c4 * state.z[4])))))))));
-  const Real t260 = t137 * t244 - t138 * t258;
-  const Real t264 = t130 * t258 - (t121 * t234 + t122 * t260);
-  const Real t270 = t116 * t258 - (t112 * t260 - (t105 * t227 + t106 * t264));
-  const Real t271 = Real(3.75e-07) * t270;
-  const Real t276 = Real(3.75e-07) * t264 + t106 * t271;
-  const Real t281 = t122 * t276 - (Real(3.75e-07) * t260 - t112 * t271);
-  const Real t290 = t146 * (t138 * t281 + (t130 * t276 + (Real(3.75e-07) * t258 + t116 * t271)));
-  const Real t292 = t137 * t281 - t138 * t290;
-  const Real t296 = t130 * t290 - (t121 * t276 + t122 * t292);
-  const Real t302 = t116 * t290 - (t112 * t292 - (t105 * t271 + t106 * t296));
-  const Real t303 = Real(3.75e-07) * t302;
-  const Real t308 = Real(3.75e-07) * t296 + t106 * t303;
-  const Real t313 = t122 * t308 - (Real(3.75e-07) * t292 - t112 * t303);
-  const Real t322 = t146 * (t138 * t313 + (t130 * t308 + (Real(3.75e-07) * t290 + t116 * t303)));
-  const Real t324 = t137 * t313 - t138 * t322;
-  const Real t328 = t130 * t322 - (t121 * t308 + t122 * t324);
-  const Real t336 = t116 * t322 - (t112 * t324 - (t106 * t328 + (t105 * t303 + (t270 - t302))));
-  const Real t338 = t328 + (t264 - t296);
-  const Real t340 = t324 + (t260 - t292);
-  const Real t342 = t322 + (t258 - t290);
-  const Real t367 = t54 * (t60 * t338 - (t205 + t57 * t336));
-  const Real t371 = t49 * (t66 * t342 - (t63 * t340 - (s2 * t338 + (t201 - c2 * t336))));
-  zdot[0] = -t367;
-  zdot[1] = -(Real(3.0) * (c1 * t338 - (rQp1 + s1 * t336)) - t50 * t367);
-  zdot[2] = -t371;
-  zdot[3] = -(Real(3.0) * (c3 * t342 + (rQp3 - s3 * t340)) - t43 * t371);
-  zdot[4] = Real(3.0) * (s4 * t342 + (rQp4 - c4 * t340));
+  const Real t197 = t43 * rQp3 + (rQp2 + (h3b_x * (c2 * zw_3) - h3b_y * (s2 * zw_3)));
+  const Real t201 = t50 * rQp1 - (rQp0 + (h1b_x * (c0 * zw_1) - h1b_y * (s0 * zw_1)));
+  const Real t202 = t54 * t201;
+  const Real t203 = Real(3.0) * rQp1;
+  const Real t204 = t49 * t197;
+  const Real t205 = Real(3.0) * rQp3;
+  const Real t206 = Real(3.0) * rQp4;
+  const Real t223 = c2 * t204 - (t57 * t202 - (s1 * t203 - (c1 * t152 - (t148 - ra1o_x))));
+  const Real t230 = t106 * t223 - (s2 * t204 - (t60 * t202 - (c1 * t203 + (s1 * t152 - (t149 - t170)))));
+  const Real t240 = t122 * t230 + (t112 * t223 - (t63 * t204 - (s3 * t205 + (c4 * t206 + (c3 * t158 + (t148 -
+      s4 * t155))))));
+  const Real t254 = t146 * (t138 * t240 - (t130 * t230 + (t116 * t223 - (t66 * t204 - (c3 * t205 + (s4 * t206
+      - (s3 * t158 + (t149 - c4 * t155))))))));
+  const Real t256 = t137 * t240 - t138 * t254;
+  const Real t260 = t122 * t256 - (t121 * t230 - t130 * t254);
+  const Real t266 = t106 * t260 + (t112 * t256 + (t105 * t223 + t116 * t254));
+  const Real t267 = Real(3.75e-07) * t266;
+  const Real t272 = Real(3.75e-07) * t260 + t106 * t267;
+  const Real t277 = t122 * t272 + (Real(3.75e-07) * t256 + t112 * t267);
+  const Real t286 = t146 * (t138 * t277 - (t130 * t272 + (Real(3.75e-07) * t254 + t116 * t267)));
+  const Real t288 = t137 * t277 - t138 * t286;
+  const Real t292 = t122 * t288 - (t121 * t272 - t130 * t286);
+  const Real t298 = t106 * t292 + (t112 * t288 + (t105 * t267 + t116 * t286));
+  const Real t299 = Real(3.75e-07) * t298;
+  const Real t304 = Real(3.75e-07) * t292 + t106 * t299;
+  const Real t309 = t122 * t304 + (Real(3.75e-07) * t288 + t112 * t299);
+  const Real t318 = t146 * (t138 * t309 - (t130 * t304 + (Real(3.75e-07) * t286 + t116 * t299)));
+  const Real t320 = t137 * t309 - t138 * t318;
+  const Real t324 = t122 * t320 - (t121 * t304 - t130 * t318);
+  const Real t332 = t106 * t324 + (t112 * t320 + (t116 * t318 + (t105 * t299 + (t266 - t298))));
+  const Real t334 = t324 + (t260 - t292);
+  const Real t336 = t320 + (t256 - t288);
+  const Real t338 = t318 + (t254 - t286);
+  const Real t363 = t54 * (t57 * t332 + (t201 - t60 * t334));
+  const Real t367 = t49 * (c2 * t332 - (s2 * t334 + (t63 * t336 + (t197 + t66 * t338))));
+  zdot[0] = t363;
+  zdot[1] = Real(3.0) * (s1 * t332 + (rQp1 - c1 * t334)) - t50 * t363;
+  zdot[2] = t367;
+  zdot[3] = -(Real(3.0) * (s3 * t336 + (rQp3 + c3 * t338)) + t43 * t367);
+  zdot[4] = Real(3.0) * (c4 * t336 + (rQp4 + s4 * t338));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -477,15 +466,12 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real h0b_x = s0 * Real(1.5);
   const Real h0_x = h1b_x + h0b_x;
   const Real J0 = t4 + Real(1.6666666666666667);
-  const Real w1_z = state.z[0] + state.z[1];
-  const Real w3_z = state.z[2] + state.z[3];
   const Real aQp0 = h0_x * Real(9.81);
   const Real adn0_z = zdot[0] * J0;
   const Real aW0w22 = state.z[0] * state.z[0];
   const Real aa1o_x = c0 * zdot[0] - s0 * aW0w22;
-  const Real aa1o_y = Real(9.81) - s0 * zdot[0] - c0 * aW0w22;
-  const Real aQp1 = zdot[0] * Real(0.3333333333333333) - h1b_x * aa1o_y + h1b_y * aa1o_x;
-  const Real zw_1 = state.z[1] * (state.z[0] + w1_z);
+  const Real aa1o_y = c0 * aW0w22 - (Real(9.81) - s0 * zdot[0]);
+  const Real zw_1 = state.z[1] * (state.z[0] + (state.z[0] + state.z[1]));
   const Real adf1_x = zdot[1] * h1b_y - h1b_x * zw_1;
   const Real adf1_y = zdot[1] * h1b_x + h1b_y * zw_1;
   const Real adn1_z = zdot[1] * Real(0.3333333333333333);
@@ -493,20 +479,17 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real adn2_z = zdot[2] * J2;
   const Real aW2w22 = state.z[2] * state.z[2];
   const Real aa3o_x = c2 * zdot[2] - s2 * aW2w22;
-  const Real aa3o_y = Real(9.81) - s2 * zdot[2] - c2 * aW2w22;
-  const Real aQp3 = zdot[2] * Real(0.3333333333333333) - h3b_x * aa3o_y + h3b_y * aa3o_x;
-  const Real zw_3 = state.z[3] * (state.z[2] + w3_z);
+  const Real aa3o_y = c2 * aW2w22 - (Real(9.81) - s2 * zdot[2]);
+  const Real zw_3 = state.z[3] * (state.z[2] + (state.z[2] + state.z[3]));
   const Real adf3_x = zdot[3] * h3b_y - h3b_x * zw_3;
   const Real adf3_y = zdot[3] * h3b_x + h3b_y * zw_3;
   const Real adn3_z = zdot[3] * Real(0.3333333333333333);
   const Real aQp4 = s4 * Real(4.905);
   const Real adn4_z = zdot[4] * Real(0.3333333333333333);
-  const Real an3c_z = adn3_z + (adn2_z + (c2 * adf3_x + s2 * adf3_y));
-  const Real an1c_z = adn1_z + (adn0_z + (c0 * adf1_x + s0 * adf1_y));
-  const Real aQ0_0 = aQp0 - an1c_z;
-  const Real aQ1_0 = aQp1 + adn1_z;
-  const Real aQ2_0 = aQp2 - an3c_z;
-  const Real aQ3_0 = aQp3 + adn3_z;
+  const Real aQ0_0 = aQp0 - (adn0_z + adn1_z) - (c0 * adf1_x + s0 * adf1_y);
+  const Real aQ1_0 = h1b_y * aa1o_x + (h1b_x * aa1o_y + (zdot[0] * Real(0.3333333333333333) + adn1_z));
+  const Real aQ2_0 = aQp2 - (adn2_z + adn3_z) - (c2 * adf3_x + s2 * adf3_y);
+  const Real aQ3_0 = h3b_y * aa3o_x + (h3b_x * aa3o_y + (zdot[2] * Real(0.3333333333333333) + adn3_z));
   const Real aQ4_0 = aQp4 - adn4_z;
   tau[0] = -aQ0_0;
   tau[1] = aQ1_0;
@@ -525,29 +508,23 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real c3 = s2 * t16 - c2 * t17;
   const Real J2 = t16 + Real(1.6666666666666667);
   const Real J0 = t4 + Real(1.6666666666666667);
-  const Real v0L_z = state.z[0] * J0;
-  const Real v1o_x = c0 * state.z[0];
-  const Real v1o_y = s0 * state.z[0];
   const Real v1L_z = state.z[1] * Real(0.3333333333333333);
-  const Real v2L_z = state.z[2] * J2;
-  const Real v3o_x = c2 * state.z[2];
-  const Real v3o_y = s2 * state.z[2];
+  const Real t38 = state.z[0] * state.z[1];
   const Real v3L_z = state.z[3] * Real(0.3333333333333333);
-  const Real T4 = (Real(0.3333333333333333) * (state.z[4] * state.z[4]) + (state.z[2] * v2L_z + (state.z[0] *
-      v0L_z + (state.z[1] * v1L_z + state.z[3] * v3L_z))) + (v3o_y * (c3 * state.z[3]) + (v3o_x * (s3 *
-      state.z[3]) + (v1o_x * (s1 * state.z[1]) + v1o_y * (c1 * state.z[1]))))) * Real(0.5) + (state.z[0] *
-      v1L_z + state.z[2] * v3L_z);
+  const Real t48 = state.z[2] * state.z[3];
+  const Real T4 = (c3 * (s2 * t48) + (J0 * (state.z[0] * state.z[0]) + (Real(0.3333333333333333) * (state.z[4]
+      * state.z[4]) + (state.z[1] * v1L_z + state.z[3] * v3L_z))) + (s1 * (c0 * t38) + J2 * (state.z[2] *
+      state.z[2]) + (c1 * (s0 * t38) + s3 * (c2 * t48)))) * Real(0.5) + (state.z[0] * v1L_z + state.z[2] *
+      v3L_z);
   return T4;
 }
 
 template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>&, const State<Real>& state) noexcept {
-  Real t4, c0, t5, t6, t13, c2, t14, t15;
-  detail::sine_cosine4(state.y[0], t4, c0, state.y[1], t5, t6, state.y[2], t13, c2, state.y[3], t14, t15);
-  const Real s1 = c0 * t5 + t4 * t6;
-  const Real s3 = c2 * t14 + t13 * t15;
+  Real t4, c0, t5, t6, t12, c2, t13, t14;
+  detail::sine_cosine4(state.y[0], t4, c0, state.y[1], t5, t6, state.y[2], t12, c2, state.y[3], t13, t14);
   const Real c4 = detail::cosine(state.y[4]);
-  const Real hg4_y = (s1 + (s3 + c4)) * Real(0.5) + (c0 + c2) * Real(1.5);
+  const Real hg4_y = (t4 * t6 + c2 * t13 + (t12 * t14 + (c0 * t5 + c4))) * Real(0.5) + (c0 + c2) * Real(1.5);
   const Real V = hg4_y * Real(9.81);
   return V;
 }
@@ -557,12 +534,12 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
     {
   Real s0, c0;
   detail::sine_cosine(state.y[0], s0, c0);
-  const Real t3 = -s0;
-  result.first_top.position[0] = t3;
+  const Real t5 = -s0;
+  result.first_top.position[0] = t5;
   result.first_top.position[1] = c0;
   result.first_top.position[2] = Real(0.0);
   result.first_top.rotation[0][0] = c0;
-  result.first_top.rotation[0][1] = t3;
+  result.first_top.rotation[0][1] = t5;
   result.first_top.rotation[0][2] = Real(0.0);
   result.first_top.rotation[1][0] = s0;
   result.first_top.rotation[1][1] = c0;
@@ -614,37 +591,37 @@ void project(const Model<Real>&, State<Real>& state) noexcept {
   const Real t84 = c3 * Real(3.0);
   const Real t85 = s4 * Real(3.0);
   const Real t86 = c2 * t83;
-  const Real t98 = Real(1.0) / (c2 * (c2 * t46) + (t53 * (t51 * t53) - Real(3.0) * (s1 * s1)) -
-      Real(3.75e-10));
+  const Real t98 = Real(1.0) / (t46 * (c2 * c2) + (t51 * (t53 * t53) - (s1 * (s1 * Real(3.0)) +
+      Real(3.75e-10))));
   const Real t99 = t73 * t98;
   const Real t105 = t78 * t98;
   const Real t107 = s2 * t77 - t73 * t105;
   const Real t109 = t86 * t98;
   const Real t111 = s2 * t83 - t73 * t109;
-  const Real t114 = Real(1.0) / (t73 * t99 + (Real(3.75e-10) - (s2 * t68 + (t55 * t66 - c1 * t67))));
+  const Real t114 = Real(1.0) / (t73 * t99 - (s2 * t68 + (t55 * t66 - (c1 * t67 + Real(3.75e-10)))));
   const Real t115 = t107 * t114;
   const Real t123 = t111 * t114;
-  const Real t128 = t107 * t123 - (t78 * t109 + (c4 * t85 - (t57 * t83 - s3 * t84)));
-  const Real t130 = Real(1.0) / (Real(3.0) * (s3 * s3 + c4 * c4) - (t107 * t115 - (t78 * t105 - (t57 * t77 -
-      Real(3.75e-10)))));
+  const Real t128 = t107 * t123 - (t78 * t109 - (t57 * t83 - (s3 * t84 + c4 * t85)));
+  const Real t130 = Real(1.0) / (t107 * t115 - (t78 * t105 - (t57 * t77 - (Real(3.75e-10) + Real(3.0) * (s3 *
+      s3 + c4 * c4)))));
   const Real t131 = t128 * t130;
-  const Real t139 = Real(1.0) / (t128 * t131 + (t111 * t123 - (t86 * t109 + (Real(3.75e-10) + (s4 * t85 - (t59
-      * t83 - c3 * t84))))));
+  const Real t139 = Real(1.0) / (t128 * t131 - (t111 * t123 - (t86 * t109 - (t59 * t83 - (c3 * t84 + (s4 * t85
+      + Real(3.75e-10)))))));
   const Real t142 = pin1d_x * t99 - (c2 - pin1bx1_y);
   const Real t149 = t115 * t142 + (pin1d_x * t105 + (pin2bx3_x + (Real(1.0) - s4)));
-  const Real t159 = t139 * (t131 * t149 + (t123 * t142 + (pin1d_x * t109 + (c4 - pin2bx3_y))));
+  const Real t159 = t139 * (t131 * t149 - (t123 * t142 + (pin1d_x * t109 + (c4 - pin2bx3_y))));
   const Real t161 = t130 * t149 - t131 * t159;
-  const Real t165 = t123 * t159 - (t114 * t142 + t115 * t161);
-  const Real t171 = t109 * t159 - (t105 * t161 - (pin1d_x * t98 + t99 * t165));
+  const Real t165 = t115 * t161 - (t114 * t142 - t123 * t159);
+  const Real t171 = t99 * t165 + (t105 * t161 + (pin1d_x * t98 + t109 * t159));
   const Real t191 = t51 * (t53 * t171 - t55 * t165);
   const Real t192 = Real(3.0) * (s1 * t171 - c1 * t165);
   const Real t193 = t47 * t191;
   const Real t194 = t192 + t193;
-  const Real t195 = t46 * (t59 * t159 - (t57 * t161 + (c2 * t171 - s2 * t165)));
-  const Real t196 = Real(3.0) * (s3 * t161 - c3 * t159);
+  const Real t195 = t46 * (c2 * t171 - (s2 * t165 + (t57 * t161 + t59 * t159)));
+  const Real t196 = Real(3.0) * (s3 * t161 + c3 * t159);
   const Real t197 = t41 * t195;
   const Real t198 = t196 - t197;
-  const Real t199 = Real(3.0) * (c4 * t161 - s4 * t159);
+  const Real t199 = Real(3.0) * (c4 * t161 + s4 * t159);
   Real t205, t206;
   detail::sine_cosine(t191, t205, t206);
   const Real s0_2 = c0 * t205 - s0 * t206;
@@ -661,8 +638,8 @@ void project(const Model<Real>&, State<Real>& state) noexcept {
   const Real c1_2 = s0_2 * t225 - c0_2 * t228;
   Real t235, t236;
   detail::sine_cosine(t195, t235, t236);
-  const Real s2_2 = c2 * t235 - s2 * t236;
-  const Real c2_2 = s2 * t235 + c2 * t236;
+  const Real s2_2 = c2 * t235 + s2 * t236;
+  const Real c2_2 = s2 * t235 - c2 * t236;
   const Real pin1bx1_x_2 = s0_2 + c1_2;
   const Real pin1bx1_y_2 = c0_2 + s1_2;
   Real t245, t246;
@@ -671,39 +648,39 @@ void project(const Model<Real>&, State<Real>& state) noexcept {
   detail::sine_cosine(t197, t247, t248);
   const Real t251 = t246 * t247 - t245 * t248;
   const Real t254 = t245 * t247 + t246 * t248;
-  const Real t257 = t22 * t251 + t21 * t254;
-  const Real t260 = t21 * t251 - t22 * t254;
+  const Real t257 = t22 * t251 - t21 * t254;
+  const Real t260 = t21 * t251 + t22 * t254;
   const Real s3_2 = c2_2 * t257 + s2_2 * t260;
   const Real c3_2 = s2_2 * t257 - c2_2 * t260;
   Real t267, t268;
   detail::sine_cosine(t199, t267, t268);
-  const Real s4_2 = c4 * t267 + s4 * t268;
-  const Real c4_2 = s4 * t267 - c4 * t268;
-  const Real pin2bx3_x_2 = s2_2 + c3_2;
-  const Real pin2bx3_y_2 = c2_2 + s3_2;
-  const Real t284 = c2_2 * state.z[2] - (pin1bx1_y_2 * state.z[0] + s1_2 * state.z[1]);
-  const Real t299 = t99 * t284 + (s2_2 * state.z[2] - (pin1bx1_x_2 * state.z[0] + c1_2 * state.z[1]));
-  const Real t306 = t115 * t299 + (t105 * t284 - (c4_2 * state.z[4] + (pin2bx3_y_2 * state.z[2] + s3_2 *
-      state.z[3])));
-  const Real t317 = t139 * (t131 * t306 + (t123 * t299 + (t109 * t284 + (s4_2 * state.z[4] + (pin2bx3_x_2 *
-      state.z[2] + c3_2 * state.z[3])))));
+  const Real s4_2 = c4 * t267 - s4 * t268;
+  const Real c4_2 = s4 * t267 + c4 * t268;
+  const Real pin2bx3_x_2 = s2_2 - c3_2;
+  const Real pin2bx3_y_2 = c2_2 - s3_2;
+  const Real t284 = pin1bx1_y_2 * state.z[0] + (s1_2 * state.z[1] + c2_2 * state.z[2]);
+  const Real t299 = t99 * t284 + (pin1bx1_x_2 * state.z[0] + (c1_2 * state.z[1] + s2_2 * state.z[2]));
+  const Real t306 = t115 * t299 + (t105 * t284 - (pin2bx3_y_2 * state.z[2] - (s3_2 * state.z[3] - c4_2 *
+      state.z[4])));
+  const Real t317 = t139 * (t131 * t306 - (t123 * t299 + (t109 * t284 + (pin2bx3_x_2 * state.z[2] - (c3_2 *
+      state.z[3] - s4_2 * state.z[4])))));
   const Real t319 = t130 * t306 - t131 * t317;
-  const Real t323 = t123 * t317 - (t114 * t299 + t115 * t319);
-  const Real t329 = t109 * t317 - (t105 * t319 - (t98 * t284 + t99 * t323));
+  const Real t323 = t115 * t319 - (t114 * t299 - t123 * t317);
+  const Real t329 = t99 * t323 + (t105 * t319 + (t98 * t284 + t109 * t317));
   const Real t349 = t51 * (t53 * t329 - t55 * t323);
-  const Real t352 = t46 * (t59 * t317 - (t57 * t319 + (c2 * t329 - s2 * t323)));
+  const Real t352 = t46 * (c2 * t329 - (s2 * t323 + (t57 * t319 + t59 * t317)));
   closed.y[0] = state.y[0] - t191;
   closed.y[1] = state.y[1] + t194;
-  closed.y[2] = state.y[2] - t195;
-  closed.y[3] = state.y[3] - t198;
-  closed.y[4] = state.y[4] + t199;
-  closed.z[0] = state.z[0] + t349;
-  closed.z[1] = -(t47 * t349 - (state.z[1] - Real(3.0) * (s1 * t329 - c1 * t323)));
+  closed.y[2] = state.y[2] + t195;
+  closed.y[3] = state.y[3] + t198;
+  closed.y[4] = state.y[4] - t199;
+  closed.z[0] = state.z[0] - t349;
+  closed.z[1] = t47 * t349 + (state.z[1] + Real(3.0) * (s1 * t329 - c1 * t323));
   closed.z[2] = state.z[2] + t352;
-  closed.z[3] = -(t41 * t352 - (state.z[3] + Real(3.0) * (s3 * t319 - c3 * t317)));
-  closed.z[4] = state.z[4] - Real(3.0) * (c4 * t319 - s4 * t317);
+  closed.z[3] = -(t41 * t352 - (state.z[3] + Real(3.0) * (s3 * t319 + c3 * t317)));
+  closed.z[4] = state.z[4] - Real(3.0) * (c4 * t319 + s4 * t317);
   closed.regularity = Real(1.0) / (t139 * (t130 * (t98 * t114))) * Real(0.02194787379972565);
-  closed.opening = t199 * t199 + (t198 * t198 + (t195 * t195 + (t191 * t191 + t194 * t194)));
+  closed.opening = t195 * t195 + (t191 * t191 + t199 * t199) + (t194 * t194 + t198 * t198);
   state = closed;
 }
 
@@ -714,9 +691,8 @@ void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)
   detail::sine_cosine4(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], s2, c2, state.y[3], t22, t23);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
-  const Real pin1ax2_x = s2 - Real(1.0);
   const Real pin1bx1_x = s0 + c1;
-  const Real pin1d_x = pin1ax2_x - pin1bx1_x;
+  const Real pin1d_x = pin1bx1_x - (s2 - Real(1.0));
   const Real pin1bx1_y = c0 + s1;
   const Real pin1d_y = c2 - pin1bx1_y;
   const Real s3 = c2 * t22 + s2 * t23;
@@ -724,17 +700,17 @@ void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)
   Real s4, c4;
   detail::sine_cosine(state.y[4], s4, c4);
   const Real pin2bx3_x = s2 + c3;
-  const Real pin2d_x = Real(1.0) - (s4 - pin2bx3_x);
+  const Real pin2d_x = pin2bx3_x + (Real(1.0) - s4);
   const Real pin2bx3_y = c2 + s3;
   const Real pin2d_y = c4 - pin2bx3_y;
-  g[0] = pin1d_x;
+  g[0] = -pin1d_x;
   g[1] = -pin1d_y;
   g[2] = -pin2d_x;
   g[3] = -pin2d_y;
-  g_rate[0] = -(pin1bx1_y * state.z[0] + s1 * state.z[1] - c2 * state.z[2]);
-  g_rate[1] = -(pin1bx1_x * state.z[0] + c1 * state.z[1] - s2 * state.z[2]);
-  g_rate[2] = -(pin2bx3_y * state.z[2] + s3 * state.z[3] - c4 * state.z[4]);
-  g_rate[3] = -(pin2bx3_x * state.z[2] + c3 * state.z[3] - s4 * state.z[4]);
+  g_rate[0] = -(pin1bx1_y * state.z[0] + (s1 * state.z[1] - c2 * state.z[2]));
+  g_rate[1] = -(pin1bx1_x * state.z[0] + (c1 * state.z[1] - s2 * state.z[2]));
+  g_rate[2] = -(pin2bx3_y * state.z[2] + (s3 * state.z[3] - c4 * state.z[4]));
+  g_rate[3] = -(pin2bx3_x * state.z[2] + (c3 * state.z[3] - s4 * state.z[4]));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -772,26 +748,30 @@ void constraint_forces(const Model<Real>&, const State<Real>& state, const Input
   const Real t91 = c3 * Real(3.0);
   const Real t92 = s4 * Real(3.0);
   const Real t93 = c2 * t90;
-  const Real t105 = Real(1.0) / (c2 * (c2 * t49) + (t57 * (t54 * t57) - Real(3.0) * (s1 * s1)) -
-      Real(3.75e-07));
+  const Real t105 = Real(1.0) / (t49 * (c2 * c2) + (t54 * (t57 * t57) - (s1 * (s1 * Real(3.0)) +
+      Real(3.75e-07))));
   const Real t106 = t80 * t105;
   const Real t112 = t85 * t105;
   const Real t114 = s2 * t84 - t80 * t112;
   const Real t116 = t93 * t105;
   const Real t118 = s2 * t90 - t80 * t116;
-  const Real t121 = Real(1.0) / (t80 * t106 + (Real(3.75e-07) - (s2 * t75 + (t60 * t73 - c1 * t74))));
+  const Real t121 = Real(1.0) / (t80 * t106 - (s2 * t75 + (t60 * t73 - (c1 * t74 + Real(3.75e-07)))));
   const Real t122 = t114 * t121;
   const Real t130 = t118 * t121;
-  const Real t135 = t114 * t130 - (t85 * t116 + (c4 * t92 - (t63 * t90 - s3 * t91)));
-  const Real t137 = Real(1.0) / (Real(3.0) * (s3 * s3 + c4 * c4) - (t114 * t122 - (t85 * t112 - (t63 * t84 -
-      Real(3.75e-07)))));
+  const Real t135 = t114 * t130 - (t85 * t116 - (t63 * t90 - (s3 * t91 + c4 * t92)));
+  const Real t137 = Real(1.0) / (t114 * t122 - (t85 * t112 - (t63 * t84 - (Real(3.75e-07) + Real(3.0) * (s3 *
+      s3 + c4 * c4)))));
   const Real t138 = t135 * t137;
-  const Real t146 = Real(1.0) / (t135 * t138 + (t118 * t130 - (t93 * t116 + (Real(3.75e-07) + (s4 * t92 - (t66
-      * t90 - c3 * t91))))));
-  const Real t151 = state.z[2] * (s2 * state.z[2]);
-  const Real t152 = state.z[2] * (c2 * state.z[2]);
+  const Real t146 = Real(1.0) / (t135 * t138 - (t118 * t130 - (t93 * t116 - (t66 * t90 - (c3 * t91 + (s4 * t92
+      + Real(3.75e-07)))))));
+  const Real t147 = state.z[2] * state.z[2];
+  const Real t148 = s2 * t147;
+  const Real t149 = c2 * t147;
   const Real w3_z = state.z[2] + state.z[3];
   const Real w1_z = state.z[0] + state.z[1];
+  const Real t152 = w1_z * w1_z;
+  const Real t155 = state.z[4] * state.z[4];
+  const Real t158 = w3_z * w3_z;
   const Real h2b_x = s2 * Real(1.5);
   const Real h2_x = h3b_x + h2b_x;
   const Real h0b_x = s0 * Real(1.5);
@@ -799,50 +779,45 @@ void constraint_forces(const Model<Real>&, const State<Real>& state, const Input
   const Real rQp0 = h0_x * Real(9.81);
   const Real rW0w22 = state.z[0] * state.z[0];
   const Real ra1o_x = s0 * rW0w22;
-  const Real t174 = c0 * rW0w22;
-  const Real ra1o_y = Real(9.81) - t174;
+  const Real t170 = c0 * rW0w22;
+  const Real ra1o_y = Real(9.81) - t170;
   const Real rQp1 = h1b_x * ra1o_y + h1b_y * ra1o_x;
   const Real zw_1 = state.z[1] * (state.z[0] + w1_z);
-  const Real rdf1_x = h1b_x * zw_1;
-  const Real rdf1_y = h1b_y * zw_1;
   const Real rQp2 = h2_x * Real(9.81);
-  const Real ra3o_y = t152 - Real(9.81);
-  const Real rQp3 = h3b_x * ra3o_y - h3b_y * t151;
+  const Real ra3o_y = t149 - Real(9.81);
+  const Real rQp3 = h3b_x * ra3o_y - h3b_y * t148;
   const Real zw_3 = state.z[3] * (state.z[2] + w3_z);
-  const Real rdf3_x = h3b_x * zw_3;
-  const Real rdf3_y = h3b_y * zw_3;
-  const Real t204 = t54 * (t50 * rQp1 + (s0 * rdf1_y - (rQp0 + c0 * rdf1_x)));
-  const Real t205 = Real(3.0) * rQp1;
-  const Real t206 = t49 * (t43 * rQp3 - (s2 * rdf3_y - (rQp2 + c2 * rdf3_x)));
-  const Real t207 = Real(3.0) * rQp3;
-  const Real t209 = s4 * Real(14.715000000000002);
-  const Real t226 = c2 * t206 + (s1 * t205 - (t57 * t204 + (w1_z * (c1 * w1_z) - (t151 - ra1o_x))));
-  const Real t233 = t106 * t226 - (s2 * t206 + (c1 * t205 - (t60 * t204 - (w1_z * (s1 * w1_z) - (t152 -
-      t174)))));
-  const Real t243 = t122 * t233 + (t112 * t226 + (c4 * t209 + (s3 * t207 - (t63 * t206 - (w3_z * (c3 * w3_z) +
-      (t151 - state.z[4] * (s4 * state.z[4])))))));
-  const Real t257 = t146 * (t138 * t243 + (t130 * t233 + (t116 * t226 + (s4 * t209 + (c3 * t207 - (t66 * t206
-      + (w3_z * (s3 * w3_z) + (t152 - state.z[4] * (c4 * state.z[4])))))))));
-  const Real t259 = t137 * t243 - t138 * t257;
-  const Real t263 = t130 * t257 - (t121 * t233 + t122 * t259);
-  const Real t269 = t116 * t257 - (t112 * t259 - (t105 * t226 + t106 * t263));
-  const Real t270 = Real(3.75e-07) * t269;
-  const Real t275 = Real(3.75e-07) * t263 + t106 * t270;
-  const Real t280 = t122 * t275 - (Real(3.75e-07) * t259 - t112 * t270);
-  const Real t289 = t146 * (t138 * t280 + (t130 * t275 + (Real(3.75e-07) * t257 + t116 * t270)));
-  const Real t291 = t137 * t280 - t138 * t289;
-  const Real t295 = t130 * t289 - (t121 * t275 + t122 * t291);
-  const Real t301 = t116 * t289 - (t112 * t291 - (t105 * t270 + t106 * t295));
-  const Real t302 = Real(3.75e-07) * t301;
-  const Real t307 = Real(3.75e-07) * t295 + t106 * t302;
-  const Real t312 = t122 * t307 - (Real(3.75e-07) * t291 - t112 * t302);
-  const Real t321 = t146 * (t138 * t312 + (t130 * t307 + (Real(3.75e-07) * t289 + t116 * t302)));
-  const Real t323 = t137 * t312 - t138 * t321;
-  const Real t327 = t130 * t321 - (t121 * t307 + t122 * t323);
-  lambda[0] = t116 * t321 - (t112 * t323 - (t106 * t327 + (t105 * t302 + (t269 - t301))));
-  lambda[1] = -(t327 + (t263 - t295));
-  lambda[2] = t323 + (t259 - t291);
-  lambda[3] = -(t321 + (t257 - t289));
+  const Real t200 = t54 * (t50 * rQp1 - (rQp0 + (h1b_x * (c0 * zw_1) - h1b_y * (s0 * zw_1))));
+  const Real t201 = Real(3.0) * rQp1;
+  const Real t202 = t49 * (t43 * rQp3 + (rQp2 + (h3b_x * (c2 * zw_3) - h3b_y * (s2 * zw_3))));
+  const Real t203 = Real(3.0) * rQp3;
+  const Real t205 = s4 * Real(14.715000000000002);
+  const Real t222 = c2 * t202 - (t57 * t200 - (s1 * t201 - (c1 * t152 - (t148 - ra1o_x))));
+  const Real t229 = t106 * t222 - (s2 * t202 - (t60 * t200 - (c1 * t201 + (s1 * t152 - (t149 - t170)))));
+  const Real t239 = t122 * t229 + (t112 * t222 - (t63 * t202 - (s3 * t203 + (c3 * t158 + (c4 * t205 + (t148 -
+      s4 * t155))))));
+  const Real t253 = t146 * (t138 * t239 - (t130 * t229 + (t116 * t222 - (t66 * t202 - (c3 * t203 - (s3 * t158
+      - (s4 * t205 - (t149 - c4 * t155))))))));
+  const Real t255 = t137 * t239 - t138 * t253;
+  const Real t259 = t122 * t255 - (t121 * t229 - t130 * t253);
+  const Real t265 = t106 * t259 + (t112 * t255 + (t105 * t222 + t116 * t253));
+  const Real t266 = Real(3.75e-07) * t265;
+  const Real t271 = Real(3.75e-07) * t259 + t106 * t266;
+  const Real t276 = t122 * t271 + (Real(3.75e-07) * t255 + t112 * t266);
+  const Real t285 = t146 * (t138 * t276 - (t130 * t271 + (Real(3.75e-07) * t253 + t116 * t266)));
+  const Real t287 = t137 * t276 - t138 * t285;
+  const Real t291 = t122 * t287 - (t121 * t271 - t130 * t285);
+  const Real t297 = t106 * t291 + (t112 * t287 + (t105 * t266 + t116 * t285));
+  const Real t298 = Real(3.75e-07) * t297;
+  const Real t303 = Real(3.75e-07) * t291 + t106 * t298;
+  const Real t308 = t122 * t303 + (Real(3.75e-07) * t287 + t112 * t298);
+  const Real t317 = t146 * (t138 * t308 - (t130 * t303 + (Real(3.75e-07) * t285 + t116 * t298)));
+  const Real t319 = t137 * t308 - t138 * t317;
+  const Real t323 = t122 * t319 - (t121 * t303 - t130 * t317);
+  lambda[0] = t106 * t323 + (t112 * t319 + (t116 * t317 + (t105 * t298 + (t265 - t297))));
+  lambda[1] = -(t323 + (t259 - t291));
+  lambda[2] = -(t319 + (t255 - t287));
+  lambda[3] = -(t317 + (t253 - t285));
 }
 
 template <class Real> JOURDAIN_FUNCTION

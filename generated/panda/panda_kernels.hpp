@@ -283,170 +283,149 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[7][7]) 
   const Real S6c_xy = S6b_xz - Real(0.014748570382675314);
   const Real S6c_xz = S6b_yz + Real(9.3569097314605e-05);
   const Real S6c_yy = S6b_xx - (h6b_x * Real(0.176) - Real(0.021522255370587554));
-  const Real S6c_yz = c6 * S6b_t - h6b_y * Real(0.088) - Real(0.0004951501989029329);
+  const Real S6c_yz = h6b_y * Real(0.088) - (c6 * S6b_t - Real(0.0004951501989029329));
   const Real S5b_zz = S6c_yy + Real(0.02893442254565989);
   const Real S5b_d = S6c_yy - Real(0.02893442254565989);
-  const Real S5b_t = c5 * S6c_xy * Real(2.0) + s5 * S5b_d;
+  const Real S5b_t = S6c_xy * (c5 * Real(2.0)) + s5 * S5b_d;
   const Real S5b_xx = Real(0.02893442254565989) + s5 * S5b_t;
-  const Real S5b_xy = S6c_xy - c5 * S5b_t;
-  const Real S5b_xz = c5 * S6c_xz + s5 * S6c_yz;
-  const Real S5b_yz = c5 * S6c_yz - s5 * S6c_xz;
-  const Real S5b_yy = S5b_zz - S5b_xx;
+  const Real S5b_xz = c5 * S6c_xz - s5 * S6c_yz;
+  const Real S5b_yz = c5 * S6c_yz + s5 * S6c_xz;
   const Real h5b_x = c5 * Real(0.173804705569) + s5 * h6c_y;
   const Real h5b_y = s5 * Real(0.173804705569) - c5 * h6c_y;
   const Real h5c_x = h5b_y - Real(0.014653732538);
   const Real h5c_y = h6b_y - Real(0.067870631425);
-  const Real S5c_xx = S5b_yy + Real(0.001451156065026715);
-  const Real S5c_xy = S5b_yz + Real(0.00151524447332703);
-  const Real S5c_xz = S5b_xy - (h5b_y * Real(0.384) - Real(0.0010267877770288943));
+  const Real S5c_xx = S5b_xx - (S5b_zz + Real(0.001451156065026715));
+  const Real S5c_xy = S5b_yz - Real(0.00151524447332703);
+  const Real S5c_xz = c5 * S5b_t + (h5b_y * Real(0.384) - (S6c_xy + Real(0.0010267877770288943)));
   const Real S5c_yy = S6b_xx - Real(0.01672933979568219);
   const Real S5c_yz = S5b_xz - (h6b_y * Real(0.384) - Real(0.02389827041510187));
-  const Real S5c_zz = S5b_xx - h5b_x * Real(0.768);
-  const Real S4b_zz = S5c_xx - S5c_yy;
-  const Real S4b_d = S5c_xx + S5c_yy;
-  const Real S4b_t = Real(2.0) * (c4 * S5c_xy) + s4 * S4b_d;
+  const Real S4b_zz = S5c_xx + S5c_yy;
+  const Real S4b_d = S5c_xx - S5c_yy;
+  const Real S4b_t = S5c_xy * (c4 * Real(2.0)) + s4 * S4b_d;
   const Real S4b_xx = S5c_xx - s4 * S4b_t;
-  const Real S4b_xy = S5c_xy - c4 * S4b_t;
-  const Real S4b_xz = c4 * S5c_xz + s4 * S5c_yz;
-  const Real S4b_yz = c4 * S5c_yz - s4 * S5c_xz;
-  const Real S4b_yy = S4b_zz - S4b_xx;
+  const Real S4b_xz = c4 * S5c_xz - s4 * S5c_yz;
+  const Real S4b_yz = c4 * S5c_yz + s4 * S5c_xz;
   const Real h4b_x = c4 * h5c_x + s4 * h5c_y;
   const Real h4b_y = c4 * h5c_y - s4 * h5c_x;
   const Real h4c_x = h5b_x - Real(2.012523553603);
   const Real h4c_y = h4b_x - Real(0.55278027465);
-  const Real S4c_xx = S5c_zz + Real(0.6972920750309718);
-  const Real S4c_xy = S4b_xz - (h5b_x * Real(0.0825) - Real(0.16284087268546085));
+  const Real S4c_xx = S5b_xx - (h5b_x * Real(0.768) - Real(0.6972920750309718));
+  const Real S4c_xy = S4b_xz + (h5b_x * Real(0.0825) - Real(0.16284087268546085));
   const Real S4c_xz = S4b_yz - Real(0.0016444875773692703);
-  const Real S4c_yy = S4b_xx - (h4b_x * Real(0.165) - Real(0.051020136156815506));
-  const Real t148 = h4b_y * Real(0.0825);
-  const Real S4c_yz = S4b_xy - (t148 + Real(0.0039053550262761));
-  const Real S3b_zz = S4c_xx + S4c_yy;
-  const Real S3b_d = S4c_xx - S4c_yy;
-  const Real S3b_t = Real(2.0) * (c3 * S4c_xy) + s3 * S3b_d;
-  const Real S3b_xx = S4c_xx - s3 * S3b_t;
-  const Real S3b_xy = S4c_xy - c3 * S3b_t;
+  const Real S4c_yy = S4b_xx + (h4b_x * Real(0.165) - Real(0.051020136156815506));
+  const Real t146 = h4b_y * Real(0.0825);
+  const Real S4c_yz = c4 * S4b_t - (t146 + (S5c_xy + Real(0.0039053550262761)));
+  const Real S3b_zz = S4c_xx - S4c_yy;
+  const Real S3b_d = S4c_xx + S4c_yy;
+  const Real S3b_t = S4c_xy * (c3 * Real(2.0)) - s3 * S3b_d;
+  const Real S3b_xx = S4c_xx + s3 * S3b_t;
   const Real S3b_xz = c3 * S4c_xz - s3 * S4c_yz;
   const Real S3b_yz = c3 * S4c_yz + s3 * S4c_xz;
-  const Real S3b_yy = S3b_zz - S3b_xx;
   const Real h3b_x = c3 * h4c_x - s3 * h4c_y;
   const Real h3b_y = c3 * h4c_y + s3 * h4c_x;
-  const Real S3c_xx = S3b_yy + (Real(0.165) * h3b_y + Real(0.0616024210265277));
-  const Real S3c_xy = S3b_yz + (t148 - Real(0.00012191242095074341));
-  const Real S3c_xz = S3b_xy + (h3b_y * Real(0.316) - Real(0.0825) * h3b_x + Real(0.24149476342611426));
-  const Real S3c_yy = S4b_yy + Real(0.022178148964878235);
+  const Real S3c_xx = S3b_xx - (S3b_zz + (Real(0.165) * h3b_y + Real(0.0616024210265277)));
+  const Real S3c_xy = S3b_yz + (t146 - Real(0.00012191242095074341));
+  const Real S3c_xz = c3 * S3b_t + (h3b_y * Real(0.316) + Real(0.24149476342611426) - (S4c_xy + Real(0.0825) *
+      h3b_x));
+  const Real S3c_yy = S4b_xx - (S4b_zz - Real(0.022178148964878235));
   const Real t191 = h4b_y * Real(0.316);
   const Real S3c_yz = S3b_xz - (t191 - Real(0.013297019103287584));
-  const Real S3c_zz = S3b_xx - h3b_x * Real(0.632);
-  const Real S2b_zz = S3c_xx + S3c_yy;
-  const Real S2b_d = S3c_xx - S3c_yy;
-  const Real S2b_t = Real(2.0) * (c2 * S3c_xy) - s2 * S2b_d;
-  const Real S2b_xx = S3c_xx + s2 * S2b_t;
-  const Real S2b_xy = S3c_xy - c2 * S2b_t;
+  const Real S2b_zz = S3c_xx - S3c_yy;
+  const Real S2b_d = S3c_xx + S3c_yy;
+  const Real S2b_t = S3c_xy * (c2 * Real(2.0)) + s2 * S2b_d;
+  const Real S2b_xx = S3c_xx - s2 * S2b_t;
   const Real S2b_xz = c2 * S3c_xz - s2 * S3c_yz;
   const Real S2b_yz = c2 * S3c_yz + s2 * S3c_xz;
-  const Real S2c_xx = S3c_zz + Real(1.032162061231881);
+  const Real S2c_xx = S3b_xx - (h3b_x * Real(0.632) - Real(1.032162061231881));
   const Real S2c_xy = S2b_xz - Real(0.00398335888393552);
   const Real S2c_xz = S2b_yz + Real(0.0007689361029464);
-  const Real S2c_yy = S2b_xx + Real(0.023077882494931805);
-  const Real S2c_yz = S2b_xy - Real(0.01026110182100817);
-  const Real S1b_zz = S2c_xx + S2c_yy;
-  const Real S1b_d = S2c_xx - S2c_yy;
-  const Real S1b_t = Real(2.0) * (c1 * S2c_xy) + s1 * S1b_d;
-  const Real S1b_xz = c1 * S2c_xz - s1 * S2c_yz;
-  const Real S0b_zz = S2b_xx - (S2b_zz + (S2c_yy + s1 * S1b_t)) - Real(0.014259565994474374);
-  const Real p_2_2N_x = c1 * S2b_zz + s1 * S2b_xz;
-  const Real p_3_3l_y = h3b_x * Real(0.316) - Real(0.0825) * h3b_y;
-  const Real p_3_3n_y = S3b_zz - p_3_3l_y;
+  const Real S2c_yy = S2b_xx - Real(0.023077882494931805);
+  const Real S2c_yz = c2 * S2b_t - (S3c_xy - Real(0.01026110182100817));
+  const Real S1b_zz = S2c_xx - S2c_yy;
+  const Real S1b_d = S2c_xx + S2c_yy;
+  const Real S1b_t = S2c_xy * (c1 * Real(2.0)) + s1 * S1b_d;
+  const Real S1b_xz = c1 * S2c_xz + s1 * S2c_yz;
+  const Real S0b_zz = s1 * S1b_t - (S2c_yy - (S2b_xx - (S2b_zz - Real(0.014259565994474374))));
+  const Real p_2_2N_x = c1 * S2b_zz - s1 * S2b_xz;
+  const Real p_3_3n_y = S3b_zz - (h3b_x * Real(0.316) - Real(0.0825) * h3b_y);
   const Real p_3_3N_x = c2 * S3b_yz - s2 * p_3_3n_y;
   const Real p_3_3N_y = c2 * p_3_3n_y + s2 * S3b_yz;
   const Real p_3_2N_x = c1 * S3b_xz + s1 * p_3_3N_x;
   const Real p_4_4l_x = h4b_x * Real(0.0825);
-  const Real p_4_4n_x = S4b_zz - p_4_4l_x;
-  const Real p_4_4N_x = c3 * p_4_4n_x + s3 * S4b_xz;
-  const Real p_4_4N_y = c3 * S4b_xz - s3 * p_4_4n_x;
+  const Real p_4_4n_x = S4b_zz + p_4_4l_x;
   const Real p_4_3l_x = h4b_x * Real(0.316);
-  const Real p_4_3l_y = c3 * t191 - s3 * t148;
-  const Real p_4_3n_x = p_4_4N_y - p_4_3l_x;
-  const Real p_4_3n_y = S4b_yz - p_4_3l_y;
-  const Real p_4_3n_z = p_4_4l_x + p_4_4N_x;
+  const Real p_4_3n_x = s3 * p_4_4n_x - (c3 * S4b_xz + p_4_3l_x);
+  const Real p_4_3n_y = S4b_yz - (c3 * t191 - s3 * t146);
+  const Real p_4_3n_z = c3 * p_4_4n_x - (p_4_4l_x - s3 * S4b_xz);
   const Real p_4_3N_x = c2 * p_4_3n_x + s2 * p_4_3n_y;
   const Real p_4_3N_y = c2 * p_4_3n_y - s2 * p_4_3n_x;
-  const Real p_4_2N_x = c1 * p_4_3n_z - s1 * p_4_3N_x;
+  const Real p_4_2N_x = c1 * p_4_3n_z + s1 * p_4_3N_x;
   const Real p_5_5l_y = h5b_x * Real(0.384);
   const Real p_5_5n_y = S5b_zz - p_5_5l_y;
   const Real p_5_5F_x = c4 * h5b_x;
   const Real p_5_5F_y = s4 * h5b_x;
-  const Real p_5_5N_x = c4 * S5b_yz + s4 * p_5_5n_y;
-  const Real p_5_5N_y = c4 * p_5_5n_y - s4 * S5b_yz;
+  const Real p_5_5N_x = c4 * S5b_yz - s4 * p_5_5n_y;
   const Real p_5_4l_x = Real(0.0825) * p_5_5F_y;
   const Real p_5_4l_z = h5b_y * Real(0.0825);
   const Real p_5_4n_x = S5b_xz - p_5_4l_x;
-  const Real p_5_4n_z = p_5_5N_y - p_5_4l_z;
+  const Real p_5_4n_z = s4 * S5b_yz + (c4 * p_5_5n_y - p_5_4l_z);
   const Real p_5_4F_x = c3 * h5b_y + s3 * p_5_5F_x;
   const Real p_5_4F_y = c3 * p_5_5F_x - s3 * h5b_y;
-  const Real p_5_4N_x = c3 * p_5_4n_x + s3 * p_5_5N_x;
-  const Real p_5_4N_y = c3 * p_5_5N_x - s3 * p_5_4n_x;
   const Real p_5_3l_x = Real(0.316) * p_5_5F_y;
-  const Real p_5_3l_y = Real(0.316) * p_5_4F_y - Real(0.0825) * p_5_4F_x;
-  const Real p_5_3n_x = p_5_4N_y - p_5_3l_x;
-  const Real p_5_3n_y = p_5_4n_z - p_5_3l_y;
-  const Real p_5_3n_z = p_5_4l_x + p_5_4N_x;
-  const Real p_5_3N_x = c2 * p_5_3n_x + s2 * p_5_3n_y;
-  const Real p_5_3N_y = c2 * p_5_3n_y - s2 * p_5_3n_x;
+  const Real p_5_3n_x = c3 * p_5_5N_x + (s3 * p_5_4n_x + p_5_3l_x);
+  const Real p_5_3n_y = p_5_4n_z - (Real(0.316) * p_5_4F_y - Real(0.0825) * p_5_4F_x);
+  const Real p_5_3n_z = s3 * p_5_5N_x - (p_5_4l_x + c3 * p_5_4n_x);
+  const Real p_5_3N_x = c2 * p_5_3n_x - s2 * p_5_3n_y;
+  const Real p_5_3N_y = c2 * p_5_3n_y + s2 * p_5_3n_x;
   const Real p_5_2N_x = c1 * p_5_3n_z - s1 * p_5_3N_x;
   const Real p_6_6l_x = h6b_x * Real(0.088);
   const Real p_6_6n_x = p_6_6l_x - Real(0.006684151967360946);
   const Real p_6_6F_x = s5 * h6b_y;
   const Real p_6_6F_y = c5 * h6b_y;
   const Real p_6_6N_x = c5 * p_6_6n_x + s5 * S6b_xz;
-  const Real p_6_6N_y = c5 * S6b_xz - s5 * p_6_6n_x;
   const Real p_6_5l_x = h6b_x * Real(0.384);
   const Real p_6_5l_y = Real(0.384) * p_6_6F_y;
-  const Real p_6_5n_x = p_6_6N_y - p_6_5l_x;
+  const Real p_6_5n_x = s5 * p_6_6n_x - (c5 * S6b_xz - p_6_5l_x);
   const Real p_6_5n_y = S6b_yz - p_6_5l_y;
   const Real p_6_5F_x = c4 * p_6_6F_y + s4 * h6b_x;
   const Real p_6_5F_y = c4 * h6b_x - s4 * p_6_6F_y;
-  const Real p_6_5N_x = c4 * p_6_5n_x - s4 * p_6_5n_y;
-  const Real p_6_5N_y = c4 * p_6_5n_y + s4 * p_6_5n_x;
+  const Real p_6_5N_x = c4 * p_6_5n_x + s4 * p_6_5n_y;
   const Real p_6_4l_x = Real(0.0825) * p_6_5F_y;
   const Real p_6_4l_z = Real(0.0825) * p_6_6F_x;
   const Real p_6_4n_x = p_6_6N_x - p_6_4l_x;
-  const Real p_6_4n_z = p_6_5N_y - p_6_4l_z;
+  const Real p_6_4n_z = s4 * p_6_5n_x - (c4 * p_6_5n_y - p_6_4l_z);
   const Real p_6_4F_x = c3 * p_6_6F_x + s3 * p_6_5F_x;
   const Real p_6_4F_y = c3 * p_6_5F_x - s3 * p_6_6F_x;
-  const Real p_6_4N_x = c3 * p_6_4n_x + s3 * p_6_5N_x;
-  const Real p_6_4N_y = c3 * p_6_5N_x - s3 * p_6_4n_x;
   const Real p_6_3l_x = Real(0.316) * p_6_5F_y;
-  const Real p_6_3l_y = Real(0.316) * p_6_4F_y - Real(0.0825) * p_6_4F_x;
-  const Real p_6_3n_x = p_6_4N_y - p_6_3l_x;
-  const Real p_6_3n_y = p_6_4n_z - p_6_3l_y;
-  const Real p_6_3n_z = p_6_4l_x + p_6_4N_x;
-  const Real p_6_3N_x = c2 * p_6_3n_x - s2 * p_6_3n_y;
-  const Real p_6_3N_y = c2 * p_6_3n_y + s2 * p_6_3n_x;
+  const Real p_6_3n_x = c3 * p_6_5N_x + (s3 * p_6_4n_x + p_6_3l_x);
+  const Real p_6_3n_y = Real(0.0825) * p_6_4F_x - (p_6_4n_z + Real(0.316) * p_6_4F_y);
+  const Real p_6_3n_z = s3 * p_6_5N_x - (p_6_4l_x + c3 * p_6_4n_x);
+  const Real p_6_3N_x = c2 * p_6_3n_x + s2 * p_6_3n_y;
+  const Real p_6_3N_y = c2 * p_6_3n_y - s2 * p_6_3n_x;
   const Real p_6_2N_x = c1 * p_6_3n_z - s1 * p_6_3N_x;
-  M[0][0] = -S0b_zz;
+  M[0][0] = S0b_zz;
   M[0][1] = M[1][0] = -S1b_xz;
-  M[0][2] = M[2][0] = p_2_2N_x;
+  M[0][2] = M[2][0] = -p_2_2N_x;
   M[0][3] = M[3][0] = p_3_2N_x;
-  M[0][4] = M[4][0] = p_4_2N_x;
-  M[0][5] = M[5][0] = p_5_2N_x;
-  M[0][6] = M[6][0] = p_6_2N_x;
+  M[0][4] = M[4][0] = -p_4_2N_x;
+  M[0][5] = M[5][0] = -p_5_2N_x;
+  M[0][6] = M[6][0] = -p_6_2N_x;
   M[1][1] = S1b_zz;
   M[1][2] = M[2][1] = -S2b_yz;
   M[1][3] = M[3][1] = -p_3_3N_y;
   M[1][4] = M[4][1] = -p_4_3N_y;
   M[1][5] = M[5][1] = -p_5_3N_y;
   M[1][6] = M[6][1] = p_6_3N_y;
-  M[2][2] = S2b_zz;
+  M[2][2] = -S2b_zz;
   M[2][3] = M[3][2] = S3b_xz;
-  M[2][4] = M[4][2] = p_4_3n_z;
-  M[2][5] = M[5][2] = p_5_3n_z;
-  M[2][6] = M[6][2] = p_6_3n_z;
+  M[2][4] = M[4][2] = -p_4_3n_z;
+  M[2][5] = M[5][2] = -p_5_3n_z;
+  M[2][6] = M[6][2] = -p_6_3n_z;
   M[3][3] = S3b_zz;
   M[3][4] = M[4][3] = S4b_yz;
   M[3][5] = M[5][3] = p_5_4n_z;
-  M[3][6] = M[6][3] = -p_6_4n_z;
-  M[4][4] = S4b_zz;
+  M[3][6] = M[6][3] = p_6_4n_z;
+  M[4][4] = -S4b_zz;
   M[4][5] = M[5][4] = S5b_xz;
   M[4][6] = M[6][4] = p_6_6N_x;
   M[5][5] = S5b_zz;
@@ -554,32 +533,14 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[7]) noexcept 
   const Real kL1U2_x = kla2np_y * Real(2.0);
   const Real kL1U2_y = kla2np_x * Real(2.0);
   const Real kL1U2_z = state.z[0] * state.z[0];
-  const Real kL1n_x = (kL1U1_y - kL1U2_z) * Real(0.01026110182100817) - (kL1w01 * Real(0.0007689361029464) -
-      (kL1U2_x * Real(0.00398335888393552) + kL1U2_y * Real(0.023077882494931805)));
-  const Real kL1n_y = Real(0.0007689361029464) * (kla3U2_z - kL1U2_z) - (kL1w01 * Real(0.01026110182100817) -
-      (kL1U2_y * Real(0.00398335888393552) + kL1U2_x * Real(1.032162061231881)));
   const Real kL2U0_y = kla2np_x + kla3w01;
   const Real kL2U1_y = kla3w00 + kla3w22;
   const Real kL2U2_y = kla3al_x - kla3w12;
-  const Real kL2n_x = (kla3U2_z - kL2U1_y) * Real(0.013297019103287584) + (kla3U2_x *
-      Real(0.00012191242095074341) + (kL2U2_y * Real(0.022178148964878235) - kla3U1_x *
-      Real(0.24149476342611426)));
-  const Real kL2n_y = Real(0.24149476342611426) * (kla3U0_x - kla3U2_z) - (kL2U2_y *
-      Real(0.00012191242095074341) + (kL2U0_y * Real(0.013297019103287584) + kla3U2_x *
-      Real(0.0616024210265277)));
   const Real kL3w02 = w3_z * w4pp_x;
   const Real kL3U0_z = kla4np_y - kL3w02;
   const Real kL3U1_x = kla3al_y + kla4w01;
   const Real kL3U1_z = kla4al_x + kla4w12;
   const Real kL3U2_x = kla4np_y + kL3w02;
-  const Real kL3f_x = kla5U2_z * Real(2.012523553603) - kla4U0_y * Real(0.55278027465);
-  const Real kL3f_y = kL3U1_x * Real(2.012523553603) + kla4U1_y * Real(0.55278027465);
-  const Real kL3n_x = (kla4U1_y - kL2U1_y) * Real(0.0039053550262761) + (kL3U1_x * Real(0.0016444875773692703)
-      - (kla4U2_y * Real(0.051020136156815506) + (kla3o_y * Real(0.55278027465) + kL3U2_x *
-      Real(0.16284087268546085))));
-  const Real kL3n_y = Real(0.0016444875773692703) * (kla5U2_z - kL2U1_y) - (kla4U0_y *
-      Real(0.0039053550262761) + (kL3U2_x * Real(0.6972920750309718) + (kla3o_y * Real(2.012523553603) +
-      kla4U2_y * Real(0.16284087268546085))));
   const Real kL4w01 = w5pp_x * w5pp_y;
   const Real kL4w22 = w4_z * w4_z;
   const Real kL4U0_x = kla5w11 + kL4w22;
@@ -588,14 +549,6 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[7]) noexcept 
   const Real kL4U1_y = kla5w00 + kL4w22;
   const Real kL4U2_x = kla5al_y - kla5w02;
   const Real kL4U2_y = kla5al_x - kla5w12;
-  const Real kL4f_x = kL4U0_y * Real(0.067870631425) + kL4U0_x * Real(0.014653732538);
-  const Real kL4f_y = kL4U1_y * Real(0.067870631425) - kL4U1_x * Real(0.014653732538);
-  const Real kL4n_x = (kla5U2_z - kL4U1_y) * Real(0.02389827041510187) + (kL4U2_x * Real(0.00151524447332703)
-      + (kL4U2_y * Real(0.010045187828321242) + (kL4U1_x * Real(0.0010267877770288943) + kla4o_x *
-      Real(0.067870631425))));
-  const Real kL4n_y = Real(0.0010267877770288943) * (kla5U2_z - kL4U0_x) + (kla4o_x * Real(0.014653732538) -
-      (kL4U2_y * Real(0.00151524447332703) + (kL4U2_x * Real(0.001451156065026715) + kL4U0_y *
-      Real(0.02389827041510187))));
   const Real kL5w02 = w5_z * w6pp_x;
   const Real kL5w11 = w6pp_y * w6pp_y;
   const Real kL5U0_x = kla6w22 + kL5w11;
@@ -603,14 +556,6 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[7]) noexcept 
   const Real kL5U1_x = kla5al_y + kla6w01;
   const Real kL5U1_z = kla6al_x + kla6w12;
   const Real kL5U2_x = kla6np_y + kL5w02;
-  const Real kL5f_x = kL5U0_x * Real(0.173804705569) - kla6U0_y * Real(0.231847552695);
-  const Real kL5f_y = kL5U1_x * Real(0.173804705569) + kla6U1_y * Real(0.231847552695);
-  const Real kL5n_x = (kla6U1_y - kL4U1_y) * Real(0.0001037589172186849) + (kL5U2_x *
-      Real(0.014748570382675314) - (kla5o_y * Real(0.231847552695) - (kla6U2_y * Real(0.021522255370587554) +
-      kL5U1_x * Real(9.3569097314605e-05))));
-  const Real kL5n_y = Real(9.3569097314605e-05) * (kL4U1_y - kL5U0_x) - (kla6U2_y * Real(0.014748570382675314)
-      + (kL5U2_x * Real(0.02893442254565989) - (kla5o_y * Real(0.173804705569) + kla6U0_y *
-      Real(0.0001037589172186849))));
   const Real kL6w_x = c6 * w6pp_y - s6 * w5_z;
   const Real kL6w_y = c6 * w5_z + s6 * w6pp_y;
   const Real kL6al_x = c6 * kla6A_x + s6 * kla6A_y;
@@ -634,74 +579,84 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[7]) noexcept 
   const Real kL6f_x = kL6U0_y * Real(0.002034439958661797) + kL6U0_x * Real(0.0025736053713382033);
   const Real kL6f_y = kL6U1_y * Real(0.002034439958661797) - kL6U1_x * Real(0.0025736053713382033);
   const Real kL6f_z = kL6U2_y * Real(0.002034439958661797) - kL6U2_x * Real(0.0025736053713382033);
-  const Real kL6n_x = (kL5U0_x - kL6U1_y) * Real(0.0012555365982728983) + (kL6U1_x *
-      Real(0.0009653051699191118) + (kL6U2_x * Real(0.000391391281684248) - (kla6o_x *
-      Real(0.002034439958661797) - kL6U2_y * Real(0.004552547872941088))));
-  const Real kL6n_y = Real(0.0009653051699191118) * (kL5U0_x - kL6U0_x) - (kL6U2_y *
-      Real(0.000391391281684248) + (kla6o_x * Real(0.0025736053713382033) + (kL6U2_x *
-      Real(0.002131604094419858) + kL6U0_y * Real(0.0012555365982728983))));
-  const Real kL6n_z = Real(0.000391391281684248) * (kL6U0_x - kL6U1_y) - (kL6U1_z *
-      Real(0.0009653051699191118) - (kL6a_y * Real(0.0025736053713382033) - (kL6U0_z *
-      Real(0.0012555365982728983) + (kL6U0_y * Real(0.004552547872941088) - (kL6a_x *
-      Real(0.002034439958661797) - kL6U1_x * Real(0.002131604094419858))))));
-  const Real kL6F_x = c6 * kL6f_x - s6 * kL6f_y;
+  const Real kL6n_x = kla6o_x * Real(0.002034439958661797) - (kL6U1_x * Real(0.0009653051699191118) + (kL5U0_x
+      - kL6U1_y) * Real(0.0012555365982728983)) - (kL6U2_y * Real(0.004552547872941088) + kL6U2_x *
+      Real(0.000391391281684248));
+  const Real kL6n_y = kla6o_x * Real(0.0025736053713382033) + (kL6U0_y * Real(0.0012555365982728983) -
+      Real(0.0009653051699191118) * (kL5U0_x - kL6U0_x)) + (kL6U2_x * Real(0.002131604094419858) + kL6U2_y *
+      Real(0.000391391281684248));
+  const Real kL6n_z = kL6a_x * Real(0.002034439958661797) - kL6U1_z * Real(0.0009653051699191118) + (kL6a_y *
+      Real(0.0025736053713382033) - (kL6U0_z * Real(0.0012555365982728983) - (Real(0.000391391281684248) *
+      (kL6U0_x - kL6U1_y) - (kL6U1_x * Real(0.002131604094419858) + kL6U0_y * Real(0.004552547872941088)))));
   const Real kL6F_y = c6 * kL6f_y + s6 * kL6f_x;
-  const Real kL6N_x = c6 * kL6n_x + s6 * kL6n_y;
-  const Real kn6c_x = kL6n_z + Real(0.088) * kL6F_y;
-  const Real t482 = kL5f_y + kL6F_x;
-  const Real t484 = kL5f_x + kL6f_z;
-  const Real kf5_y = c5 * t482 + s5 * t484;
+  const Real t439 = s6 * kL6f_y - (c6 * kL6f_x + (kL5U1_x * Real(0.173804705569) + kla6U1_y *
+      Real(0.231847552695)));
+  const Real t442 = kL6f_z + (kL5U0_x * Real(0.173804705569) - kla6U0_y * Real(0.231847552695));
+  const Real kf5_y = c5 * t439 - s5 * t442;
   const Real kf5_z = kL6F_y - (kL5U2_x * Real(0.173804705569) + kla6U2_y * Real(0.231847552695));
-  const Real kn5_z = Real(0.014748570382675314) * (kla6U1_y - kL5U0_x) - (Real(0.088) * kL6f_z - (s6 * kL6n_x
-      - (c6 * kL6n_y - (kla6p_x * Real(0.231847552695) + (kL5U1_x * Real(0.02893442254565989) - (kL5U0_z *
-      Real(0.0001037589172186849) - (kL5U1_z * Real(9.3569097314605e-05) + (kla6U0_y *
-      Real(0.021522255370587554) - kla6p_y * Real(0.173804705569)))))))));
-  const Real t501 = kL5n_y - kL6N_x;
-  const Real t503 = kL5n_x - kn6c_x;
-  const Real kn5c_x = c5 * t501 - (Real(0.384) * kf5_z - s5 * t503);
-  const Real kn5c_y = kn5_z - Real(0.384) * kf5_y;
-  const Real t509 = kL4f_x - kf5_y;
-  const Real t511 = kL4f_y - kf5_z;
-  const Real kf4_x = c4 * t509 + s4 * t511;
-  const Real kf4_y = c4 * t511 - s4 * t509;
-  const Real kf4_z = c5 * t484 - (s5 * t482 + (kL4U2_y * Real(0.067870631425) - kL4U2_x *
+  const Real kn5_z = Real(0.088) * kL6f_z + (kla6p_y * Real(0.173804705569) + kL5U0_z *
+      Real(0.0001037589172186849) - (kla6p_x * Real(0.231847552695) + (kL5U1_z * Real(9.3569097314605e-05) +
+      (Real(0.014748570382675314) * (kla6U1_y - kL5U0_x) + (kla6U0_y * Real(0.021522255370587554) + kL5U1_x *
+      Real(0.02893442254565989)))))) - (c6 * kL6n_y - s6 * kL6n_x);
+  const Real t464 = s6 * kL6n_y + (c6 * kL6n_x + (kla5o_y * Real(0.173804705569) + (kla6U0_y *
+      Real(0.0001037589172186849) + Real(9.3569097314605e-05) * (kL4U1_y - kL5U0_x)) - (kL5U2_x *
+      Real(0.02893442254565989) + kla6U2_y * Real(0.014748570382675314))));
+  const Real t471 = kL6n_z + (Real(0.088) * kL6F_y + (kla5o_y * Real(0.231847552695) - (kL5U1_x *
+      Real(9.3569097314605e-05) + (kla6U1_y - kL4U1_y) * Real(0.0001037589172186849)) - (kla6U2_y *
+      Real(0.021522255370587554) + kL5U2_x * Real(0.014748570382675314))));
+  const Real t475 = kf5_y + (kL4U0_y * Real(0.067870631425) + kL4U0_x * Real(0.014653732538));
+  const Real t478 = kf5_z - (kL4U1_y * Real(0.067870631425) - kL4U1_x * Real(0.014653732538));
+  const Real kf4_y = c4 * t478 + s4 * t475;
+  const Real kf4_z = c5 * t442 + (s5 * t439 - (kL4U2_y * Real(0.067870631425) - kL4U2_x *
       Real(0.014653732538)));
-  const Real t522 = kL4n_x - kn5c_x;
-  const Real t524 = kL4n_y - kn5c_y;
-  const Real kn4_x = c4 * t522 - s4 * t524;
-  const Real kn4_z = c5 * t503 - (s5 * t501 + (Real(0.00151524447332703) * (kL4U0_x - kL4U1_y) - (kla5p_y *
-      Real(0.014653732538) + (kla5U0_z * Real(0.02389827041510187) + (kL4U1_x * Real(0.001451156065026715) +
-      (kL4U0_y * Real(0.010045187828321242) + (kla5U1_z * Real(0.0010267877770288943) + kla5p_x *
-      Real(0.067870631425))))))));
-  const Real kn4c_x = kn4_z - Real(0.0825) * kf4_y;
-  const Real t542 = kL3f_x - kf4_z;
-  const Real t544 = kL3f_y + kf4_x;
-  const Real kf3_x = c3 * t542 - s3 * t544;
-  const Real kf3_y = c3 * t544 + s3 * t542;
-  const Real kf3_z = kf4_y - (kL3U2_x * Real(2.012523553603) + kla4U2_y * Real(0.55278027465));
-  const Real kn3_z = c4 * t524 + (s4 * t522 - (Real(0.16284087268546085) * (kla4U1_y - kla5U2_z) +
-      (Real(0.0825) * kf4_z + (kL3U0_z * Real(0.0039053550262761) - (kL3U1_z * Real(0.0016444875773692703) -
-      (kla4U0_y * Real(0.051020136156815506) + (kL3U1_x * Real(0.6972920750309718) + (kla4p_y *
-      Real(2.012523553603) - kla4p_x * Real(0.55278027465)))))))));
-  const Real t566 = kL3n_y - kn4_x;
-  const Real t568 = kL3n_x - kn4c_x;
-  const Real kn3c_x = c3 * t566 + (Real(0.316) * kf3_z - s3 * t568);
-  const Real kn3c_y = Real(0.0825) * kf3_x - (kn3_z - Real(0.316) * kf3_y);
-  const Real t577 = kL2n_x - kn3c_x;
-  const Real t579 = kL2n_y - kn3c_y;
-  const Real kn2_x = c2 * t577 - s2 * t579;
-  const Real kn2_z = c3 * t568 + (s3 * t566 + (Real(0.00012191242095074341) * (kla3U0_x - kL2U1_y) -
-      (Real(0.0825) * kf3_z + (kla3U1_x * Real(0.0616024210265277) - (kla3U1_z * Real(0.24149476342611426) -
-      (kL2U0_y * Real(0.022178148964878235) + kla3U0_z * Real(0.013297019103287584)))))));
-  const Real kn1_x = c1 * (kL1n_x - kn2_z) - s1 * (kL1n_y + kn2_x);
-  const Real kn1_z = c2 * t579 + (s2 * t577 + (kL1w01 * Real(1.0090841787369491) + Real(0.00398335888393552) *
+  const Real t494 = c5 * t464 - (s5 * t471 + (Real(0.384) * kf5_z + (kL4U2_y * Real(0.010045187828321242) +
+      (kla5U2_z - kL4U1_y) * Real(0.02389827041510187) + (kL4U2_x * Real(0.00151524447332703) + (kL4U1_x *
+      Real(0.0010267877770288943) + kla4o_x * Real(0.067870631425))))));
+  const Real t501 = Real(0.384) * kf5_y - (kn5_z - (kL4U2_x * Real(0.001451156065026715) -
+      Real(0.0010267877770288943) * (kla5U2_z - kL4U0_x) + (kL4U2_y * Real(0.00151524447332703) + (kL4U0_y *
+      Real(0.02389827041510187) - kla4o_x * Real(0.014653732538)))));
+  const Real kn4_z = s5 * t464 + (c5 * t471 - (kla5p_x * Real(0.067870631425) - (Real(0.00151524447332703) *
+      (kL4U0_x - kL4U1_y) - (kL4U0_y * Real(0.010045187828321242) + kL4U1_x * Real(0.001451156065026715))) +
+      (kla5p_y * Real(0.014653732538) + (kla5U1_z * Real(0.0010267877770288943) + kla5U0_z *
+      Real(0.02389827041510187)))));
+  const Real t518 = kf4_z - (kla5U2_z * Real(2.012523553603) - kla4U0_y * Real(0.55278027465));
+  const Real t522 = c4 * t475 - (s4 * t478 - (kL3U1_x * Real(2.012523553603) + kla4U1_y *
+      Real(0.55278027465)));
+  const Real kf3_x = c3 * t518 + s3 * t522;
+  const Real kf3_y = c3 * t522 - s3 * t518;
+  const Real kf3_z = kf4_y + (kL3U2_x * Real(2.012523553603) + kla4U2_y * Real(0.55278027465));
+  const Real kn3_z = s4 * t494 + (c4 * t501 + (Real(0.0825) * kf4_z - (kla4p_x * Real(0.55278027465) +
+      (kL3U1_z * Real(0.0016444875773692703) - kL3U0_z * Real(0.0039053550262761)) -
+      (Real(0.16284087268546085) * (kla4U1_y - kla5U2_z) + (kla4p_y * Real(2.012523553603) + (kL3U1_x *
+      Real(0.6972920750309718) + kla4U0_y * Real(0.051020136156815506)))))));
+  const Real t549 = s4 * t501 - (c4 * t494 + (Real(0.0016444875773692703) * (kla5U2_z - kL2U1_y) - (kla3o_y *
+      Real(2.012523553603) + kla4U0_y * Real(0.0039053550262761) + (kla4U2_y * Real(0.16284087268546085) +
+      kL3U2_x * Real(0.6972920750309718)))));
+  const Real t556 = Real(0.0825) * kf4_y - (kn4_z - (kL3U2_x * Real(0.16284087268546085) + kla4U2_y *
+      Real(0.051020136156815506) - ((kla4U1_y - kL2U1_y) * Real(0.0039053550262761) - (kla3o_y *
+      Real(0.55278027465) - kL3U1_x * Real(0.0016444875773692703)))));
+  const Real t566 = c3 * t549 - (s3 * t556 - (Real(0.316) * kf3_z + (kL2U2_y * Real(0.022178148964878235) -
+      kla3U1_x * Real(0.24149476342611426) + (kla3U2_x * Real(0.00012191242095074341) + (kla3U2_z - kL2U1_y) *
+      Real(0.013297019103287584)))));
+  const Real t573 = kn3_z + (kL2U0_y * Real(0.013297019103287584) + kla3U2_x * Real(0.0616024210265277) +
+      (kL2U2_y * Real(0.00012191242095074341) - Real(0.24149476342611426) * (kla3U0_x - kla3U2_z))) +
+      (Real(0.316) * kf3_y - Real(0.0825) * kf3_x);
+  const Real kn2_z = s3 * t549 + (c3 * t556 - (Real(0.0825) * kf3_z + (kla3U1_z * Real(0.24149476342611426) -
+      kla3U1_x * Real(0.0616024210265277) + (Real(0.00012191242095074341) * (kla3U0_x - kL2U1_y) - (kL2U0_y *
+      Real(0.022178148964878235) + kla3U0_z * Real(0.013297019103287584))))));
+  const Real kn1_x = c1 * (kn2_z + ((kL1U1_y - kL1U2_z) * Real(0.01026110182100817) - (kL1w01 *
+      Real(0.0007689361029464) - (kL1U2_x * Real(0.00398335888393552) + kL1U2_y *
+      Real(0.023077882494931805))))) - s1 * (s2 * t573 + (c2 * t566 + (Real(0.0007689361029464) * (kla3U2_z -
+      kL1U2_z) - (kL1w01 * Real(0.01026110182100817) - (kL1U2_y * Real(0.00398335888393552) + kL1U2_x *
+      Real(1.032162061231881))))));
+  const Real kn1_z = s2 * t566 - (c2 * t573 - (kL1w01 * Real(1.0090841787369491) + Real(0.00398335888393552) *
       (kla3U2_z - kL1U1_y)));
   k[0] = kn1_x;
   k[1] = kn1_z;
-  k[2] = -kn2_z;
-  k[3] = -kn3_z;
-  k[4] = kn4_z;
-  k[5] = kn5_z;
+  k[2] = kn2_z;
+  k[3] = kn3_z;
+  k[4] = -kn4_z;
+  k[5] = -kn5_z;
   k[6] = kL6n_z;
 }
 
@@ -726,10 +681,9 @@ void q_bar(const Model<Real>&, const State<Real>& state, const Input<Real>& inpu
   const Real h3b_y = c3 * h4c_y + s3 * h4c_x;
   const Real h3c_x = h3b_y + Real(0.746857959872);
   const Real h3c_y = h4b_y - Real(0.028227094878);
-  const Real h2b_x = c2 * h3c_x + s2 * h3c_y;
   const Real h2b_y = c2 * h3c_y - s2 * h3c_x;
   const Real h2c_x = h3b_x - Real(3.344500043512);
-  const Real h2c_y = h2b_x - Real(0.002031994566);
+  const Real h2c_y = c2 * h3c_x + (s2 * h3c_y - Real(0.002031994566));
   const Real h1b_y = c1 * h2c_y - s1 * h2c_x;
   const Real q_1 = h1b_y * Real(9.81) + input.u[1];
   const Real g2p_x = c1 * Real(9.81);
@@ -737,22 +691,22 @@ void q_bar(const Model<Real>&, const State<Real>& state, const Input<Real>& inpu
   const Real q_2 = input.u[2] + h2b_y * g2p_y;
   const Real g3p_x = c2 * g2p_y;
   const Real g3p_y = s2 * g2p_y;
-  const Real q_3 = input.u[3] + h3b_x * g3p_x - h3b_y * g2p_x;
+  const Real q_3 = h3b_y * g2p_x - (input.u[3] + h3b_x * g3p_x);
   const Real g4p_x = c3 * g2p_x + s3 * g3p_x;
   const Real g4p_y = c3 * g3p_x - s3 * g2p_x;
-  const Real q_4 = input.u[4] - h4b_x * g3p_y + h4b_y * g4p_y;
+  const Real q_4 = h4b_y * g4p_y + (input.u[4] - h4b_x * g3p_y);
   const Real g5p_x = c4 * g4p_y - s4 * g3p_y;
   const Real g5p_y = c4 * g3p_y + s4 * g4p_y;
-  const Real q_5 = input.u[5] + h5b_x * g5p_x - h5b_y * g4p_x;
+  const Real q_5 = h5b_x * g5p_x + (input.u[5] - h5b_y * g4p_x);
   const Real g6p_y = c5 * g5p_x - s5 * g4p_x;
-  const Real q_6 = input.u[6] - h6b_x * g5p_y - h6b_y * g6p_y;
+  const Real q_6 = h6b_y * g6p_y - (input.u[6] - h6b_x * g5p_y);
   q[0] = -input.u[0];
   q[1] = -q_1;
   q[2] = -q_2;
-  q[3] = -q_3;
+  q[3] = q_3;
   q[4] = -q_4;
   q[5] = -q_5;
-  q[6] = -q_6;
+  q[6] = q_6;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -773,29 +727,29 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real h6c_y = h6b_x - Real(0.231847552695);
   const Real S6c_xy = S6b_xz - Real(0.014748570382675314);
   const Real S6c_xz = S6b_yz + Real(9.3569097314605e-05);
-  const Real S6c_yy = h6b_x * Real(0.176) - (S6b_xx + Real(0.021522255370587554));
-  const Real S6c_yz = S6b_xy - h6b_y * Real(0.088) - Real(0.0001037589172186849);
-  const Real S5b_zz = S6c_yy - Real(0.02893442254565989);
-  const Real S5b_d = S6c_yy + Real(0.02893442254565989);
-  const Real S5b_t = c5 * S6c_xy * Real(2.0) - s5 * S5b_d;
+  const Real S6c_yy = S6b_xx - (h6b_x * Real(0.176) - Real(0.021522255370587554));
+  const Real S6c_yz = S6b_xy - (h6b_y * Real(0.088) + Real(0.0001037589172186849));
+  const Real S5b_zz = S6c_yy + Real(0.02893442254565989);
+  const Real S5b_d = S6c_yy - Real(0.02893442254565989);
+  const Real S5b_t = S6c_xy * (c5 * Real(2.0)) + s5 * S5b_d;
   const Real S5b_xx = Real(0.02893442254565989) + s5 * S5b_t;
   const Real S5b_xy = S6c_xy - c5 * S5b_t;
   const Real S5b_xz = c5 * S6c_xz + s5 * S6c_yz;
   const Real S5b_yz = c5 * S6c_yz - s5 * S6c_xz;
-  const Real S5b_yy = S5b_zz + S5b_xx;
+  const Real S5b_yy = S5b_zz - S5b_xx;
   const Real h5b_x = c5 * Real(0.173804705569) + s5 * h6c_y;
   const Real h5b_y = s5 * Real(0.173804705569) - c5 * h6c_y;
   const Real h5c_x = h5b_y - Real(0.014653732538);
   const Real h5c_y = h6b_y - Real(0.067870631425);
-  const Real S5c_xx = S5b_yy - Real(0.001451156065026715);
+  const Real S5c_xx = S5b_yy + Real(0.001451156065026715);
   const Real S5c_xy = S5b_yz + Real(0.00151524447332703);
-  const Real S5c_xz = h5b_y * Real(0.384) - (S5b_xy + Real(0.0010267877770288943));
+  const Real S5c_xz = S5b_xy - (h5b_y * Real(0.384) - Real(0.0010267877770288943));
   const Real S5c_yy = S6b_yy - Real(0.010045187828321242);
-  const Real S5c_yz = h6b_y * Real(0.384) - (S5b_xz + Real(0.02389827041510187));
-  const Real S4b_zz = S5c_xx + S5c_yy;
-  const Real S4b_d = S5c_xx - S5c_yy;
-  const Real S4b_t = Real(2.0) * (c4 * S5c_xy) - s4 * S4b_d;
-  const Real S4b_xx = S5c_xx + s4 * S4b_t;
+  const Real S5c_yz = S5b_xz - (h6b_y * Real(0.384) - Real(0.02389827041510187));
+  const Real S4b_zz = S5c_xx - S5c_yy;
+  const Real S4b_d = S5c_xx + S5c_yy;
+  const Real S4b_t = S5c_xy * (c4 * Real(2.0)) + s4 * S4b_d;
+  const Real S4b_xx = S5c_xx - s4 * S4b_t;
   const Real S4b_xy = S5c_xy - c4 * S4b_t;
   const Real S4b_xz = c4 * S5c_xz + s4 * S5c_yz;
   const Real S4b_yz = c4 * S5c_yz - s4 * S5c_xz;
@@ -804,33 +758,33 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real h4b_y = c4 * h5c_y - s4 * h5c_x;
   const Real h4c_x = h5b_x - Real(2.012523553603);
   const Real h4c_y = h4b_x - Real(0.55278027465);
-  const Real S4c_xx = S5b_xx - h5b_x * Real(0.768) + Real(0.6972920750309718);
-  const Real S4c_xy = h5b_x * Real(0.0825) + (S4b_xz - Real(0.16284087268546085));
-  const Real S4c_xz = S4b_yz + Real(0.0016444875773692703);
-  const Real S4c_yy = S4b_xx + h4b_x * Real(0.165) - Real(0.051020136156815506);
+  const Real S4c_xx = S5b_xx - (h5b_x * Real(0.768) - Real(0.6972920750309718));
+  const Real S4c_xy = S4b_xz - (h5b_x * Real(0.0825) - Real(0.16284087268546085));
+  const Real S4c_xz = S4b_yz - Real(0.0016444875773692703);
+  const Real S4c_yy = S4b_xx - (h4b_x * Real(0.165) - Real(0.051020136156815506));
   const Real t152 = h4b_y * Real(0.0825);
-  const Real S4c_yz = S4b_xy - t152 - Real(0.0039053550262761);
-  const Real S3b_zz = S4c_xx - S4c_yy;
-  const Real S3b_d = S4c_xx + S4c_yy;
-  const Real S3b_t = Real(2.0) * (c3 * S4c_xy) - s3 * S3b_d;
-  const Real S3b_xx = S4c_xx + s3 * S3b_t;
+  const Real S4c_yz = S4b_xy - (t152 + Real(0.0039053550262761));
+  const Real S3b_zz = S4c_xx + S4c_yy;
+  const Real S3b_d = S4c_xx - S4c_yy;
+  const Real S3b_t = S4c_xy * (c3 * Real(2.0)) + s3 * S3b_d;
+  const Real S3b_xx = S4c_xx - s3 * S3b_t;
   const Real S3b_xy = S4c_xy - c3 * S3b_t;
-  const Real S3b_xz = c3 * S4c_xz + s3 * S4c_yz;
-  const Real S3b_yz = c3 * S4c_yz - s3 * S4c_xz;
+  const Real S3b_xz = c3 * S4c_xz - s3 * S4c_yz;
+  const Real S3b_yz = c3 * S4c_yz + s3 * S4c_xz;
   const Real S3b_yy = S3b_zz - S3b_xx;
   const Real h3b_x = c3 * h4c_x - s3 * h4c_y;
   const Real h3b_y = c3 * h4c_y + s3 * h4c_x;
   const Real h3c_x = h3b_y + Real(0.746857959872);
   const Real h3c_y = h4b_y - Real(0.028227094878);
-  const Real S3c_xx = S3b_yy + Real(0.165) * h3b_y + Real(0.0616024210265277);
-  const Real S3c_xy = t152 + S3b_yz - Real(0.00012191242095074341);
-  const Real S3c_xz = Real(0.0825) * h3b_x + (S3b_xy - h3b_y * Real(0.316)) - Real(0.24149476342611426);
-  const Real S3c_yy = S4b_yy - Real(0.022178148964878235);
+  const Real S3c_xx = S3b_yy + (Real(0.165) * h3b_y + Real(0.0616024210265277));
+  const Real S3c_xy = S3b_yz + (t152 - Real(0.00012191242095074341));
+  const Real S3c_xz = S3b_xy - (Real(0.0825) * h3b_x - (h3b_y * Real(0.316) + Real(0.24149476342611426)));
+  const Real S3c_yy = S4b_yy + Real(0.022178148964878235);
   const Real t199 = h4b_y * Real(0.316);
-  const Real S3c_yz = S3b_xz + t199 - Real(0.013297019103287584);
-  const Real S2b_zz = S3c_xx - S3c_yy;
-  const Real S2b_d = S3c_xx + S3c_yy;
-  const Real S2b_t = Real(2.0) * (c2 * S3c_xy) - s2 * S2b_d;
+  const Real S3c_yz = S3b_xz - (t199 - Real(0.013297019103287584));
+  const Real S2b_zz = S3c_xx + S3c_yy;
+  const Real S2b_d = S3c_xx - S3c_yy;
+  const Real S2b_t = S3c_xy * (c2 * Real(2.0)) - s2 * S2b_d;
   const Real S2b_xx = S3c_xx + s2 * S2b_t;
   const Real S2b_xy = S3c_xy - c2 * S2b_t;
   const Real S2b_xz = c2 * S3c_xz - s2 * S3c_yz;
@@ -838,16 +792,16 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real S2b_yy = S2b_zz - S2b_xx;
   const Real h2b_y = c2 * h3c_y - s2 * h3c_x;
   const Real h2c_x = h3b_x - Real(3.344500043512);
-  const Real h2c_y = c2 * h3c_x + s2 * h3c_y - Real(0.002031994566);
-  const Real S2c_xx = S3b_xx - h3b_x * Real(0.632) + Real(1.032162061231881);
-  const Real S2c_xy = S2b_xz + Real(0.00398335888393552);
-  const Real S2c_xz = S2b_yz - Real(0.0007689361029464);
+  const Real h2c_y = c2 * h3c_x + (s2 * h3c_y - Real(0.002031994566));
+  const Real S2c_xx = S3b_xx - (h3b_x * Real(0.632) - Real(1.032162061231881));
+  const Real S2c_xy = S2b_xz - Real(0.00398335888393552);
+  const Real S2c_xz = S2b_yz + Real(0.0007689361029464);
   const Real S2c_yy = S2b_xx + Real(0.023077882494931805);
   const Real S2c_yz = S2b_xy - Real(0.01026110182100817);
   const Real S1b_d = S2c_xx - S2c_yy;
-  const Real S1b_t = Real(2.0) * (c1 * S2c_xy) - s1 * S1b_d;
+  const Real S1b_t = S2c_xy * (c1 * Real(2.0)) + s1 * S1b_d;
   const Real S1b_xy = S2c_xy - c1 * S1b_t;
-  const Real S1b_yz = c1 * S2c_yz - s1 * S2c_xz;
+  const Real S1b_yz = c1 * S2c_yz + s1 * S2c_xz;
   const Real h1b_y = c1 * h2c_y - s1 * h2c_x;
   const Real w2pp_x = c1 * state.z[0];
   const Real w2pp_y = s1 * state.z[0];
@@ -864,14 +818,13 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real w6pp_x = c5 * w4_z - s5 * w5pp_x;
   const Real w6pp_y = c5 * w5pp_x + s5 * w4_z;
   const Real bKy1 = S1b_xy * state.z[0];
-  const Real zz_1 = state.z[1] * state.z[1];
   const Real bal1o_y = state.z[0] * state.z[1];
   const Real bal2p_x = s1 * bal1o_y;
   const Real bal2p_y = c1 * bal1o_y;
   const Real bL1a_x = c1 * Real(9.81);
   const Real bL1a_y = s1 * Real(9.81);
-  const Real bKx2 = S2b_xz * w2pp_x - (S2b_xy * state.z[1] - S2b_xx * w2pp_y);
-  const Real bKy2 = S2b_yz * w2pp_x - (S2b_yy * state.z[1] - S2b_xy * w2pp_y);
+  const Real bKx2 = S2b_xx * w2pp_y - (S2b_xy * state.z[1] + S2b_xz * w2pp_x);
+  const Real bKy2 = S2b_yy * state.z[1] - (S2b_xy * w2pp_y - S2b_yz * w2pp_x);
   const Real z2_2 = Real(2.0) * state.z[2];
   const Real zz_2 = state.z[2] * state.z[2];
   const Real bal2o_x = bal2p_y - state.z[2] * state.z[1];
@@ -888,14 +841,13 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real bL2w22 = w2_z * w2_z;
   const Real bL2U0_x = bL2w11 + bL2w22;
   const Real bL2U0_z = bal3p_y + bL2w02;
-  const Real bL2U1_x = bal2p_x - bL2w01;
   const Real bL2U1_z = bal3p_x + bL2w12;
   const Real bL2U2_x = bal3p_y - bL2w02;
   const Real bL2U2_z = bL2w00 + bL2w11;
   const Real ba3o_x = Real(0.0825) * bL2U0_x + (bL2a_x - Real(0.316) * bL2U0_z);
   const Real ba3o_z = Real(0.0825) * bL2U2_x - (bL1a_x - Real(0.316) * bL2U2_z);
-  const Real bKx3 = S3b_xz * w3pp_y - (S3b_xx * w2_z - S3b_xy * w3pp_x);
-  const Real bKy3 = S3b_yy * w3pp_x - (S3b_xy * w2_z + S3b_yz * w3pp_y);
+  const Real bKx3 = S3b_xy * w3pp_x + (S3b_xx * w2_z + S3b_xz * w3pp_y);
+  const Real bKy3 = S3b_yy * w3pp_x + (S3b_xy * w2_z - S3b_yz * w3pp_y);
   const Real z2_3 = Real(2.0) * state.z[3];
   const Real zz_3 = state.z[3] * state.z[3];
   const Real zw_3 = state.z[3] * (w3pp_y + w3_z);
@@ -913,11 +865,11 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real bL3w22 = w3_z * w3_z;
   const Real bL3U0_y = bal3p_y - bL3w01;
   const Real bL3U1_y = bL3w00 + bL3w22;
-  const Real bL3U2_y = bal4p_x - bL3w12;
-  const Real ba4o_y = Real(0.0825) * bL3U1_y - (c3 * ba3o_x + s3 * ba3o_z);
-  const Real ba4o_z = Real(0.0825) * (bL2U1_x - bL3U2_y) - (bL2a_y + Real(0.316) * bL2U1_z);
-  const Real bKx4 = S4b_xz * w4pp_x - (S4b_xx * w4pp_y + S4b_xy * w3_z);
-  const Real bKy4 = S4b_yy * w3_z + (S4b_xy * w4pp_y + S4b_yz * w4pp_x);
+  const Real ba4o_y = s3 * ba3o_z + (c3 * ba3o_x - Real(0.0825) * bL3U1_y);
+  const Real ba4o_z = Real(0.0825) * (bal4p_x - (bL3w12 + (bal2p_x - bL2w01))) + (bL2a_y + Real(0.316) *
+      bL2U1_z);
+  const Real bKx4 = S4b_xy * w3_z - (S4b_xx * w4pp_y - S4b_xz * w4pp_x);
+  const Real bKy4 = S4b_yy * w3_z - (S4b_xy * w4pp_y - S4b_yz * w4pp_x);
   const Real z2_4 = Real(2.0) * state.z[4];
   const Real zz_4 = state.z[4] * state.z[4];
   const Real zw_4 = state.z[4] * (w4pp_x + w4_z);
@@ -936,10 +888,10 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real bL4U0_z = bal5p_y + bL4w02;
   const Real bL4U1_z = bal5p_x + bL4w12;
   const Real bL4U2_z = bL4w00 + bL4w11;
-  const Real ba5o_x = Real(0.384) * bL4U0_z + (c4 * ba4o_y - s4 * ba4o_z);
-  const Real ba5o_z = Real(0.384) * bL4U2_z - (Real(0.0825) * bL3U0_y - (c3 * ba3o_z - s3 * ba3o_x));
-  const Real bKx5 = S5b_xz * w5pp_y + (S5b_xx * w4_z - S5b_xy * w5pp_x);
-  const Real bKy5 = S5b_yy * w5pp_x + (S5b_xy * w4_z - S5b_yz * w5pp_y);
+  const Real ba5o_x = Real(0.384) * bL4U0_z - (c4 * ba4o_y - s4 * ba4o_z);
+  const Real ba5o_z = c3 * ba3o_z - Real(0.0825) * bL3U0_y - (s3 * ba3o_x - Real(0.384) * bL4U2_z);
+  const Real bKx5 = S5b_xy * w5pp_x - (S5b_xx * w4_z + S5b_xz * w5pp_y);
+  const Real bKy5 = S5b_yy * w5pp_x - (S5b_xy * w4_z - S5b_yz * w5pp_y);
   const Real z2_5 = Real(2.0) * state.z[5];
   const Real zz_5 = state.z[5] * state.z[5];
   const Real zw_5 = state.z[5] * (w5pp_y + w5_z);
@@ -956,64 +908,63 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real bL5w22 = w5_z * w5_z;
   const Real bL5U1_y = bL5w00 + bL5w22;
   const Real bL5U2_y = bal6p_x - bL5w12;
-  const Real ba6o_y = Real(0.088) * bL5U1_y - (c5 * ba5o_x - s5 * ba5o_z);
-  const Real ba6o_z = Real(0.088) * bL5U2_y - (Real(0.384) * bL4U1_z - (c4 * ba4o_z + s4 * ba4o_y));
+  const Real ba6o_y = c5 * ba5o_x - (s5 * ba5o_z + Real(0.088) * bL5U1_y);
+  const Real ba6o_z = Real(0.088) * bL5U2_y - (Real(0.384) * bL4U1_z + (c4 * ba4o_z + s4 * ba4o_y));
   const Real bKx6 = S6b_xz * w6pp_x + (S6b_xx * w6pp_y + S6b_xy * w5_z);
-  const Real bKy6 = S6b_yy * w5_z - (S6b_xy * w6pp_y + S6b_yz * w6pp_x);
+  const Real bKy6 = S6b_yz * w6pp_x + (S6b_xy * w6pp_y - S6b_yy * w5_z);
   const Real z2_6 = Real(2.0) * state.z[6];
   const Real zz_6 = state.z[6] * state.z[6];
-  const Real zw_6 = state.z[6] * (state.z[6] - (w6pp_x + w6pp_x));
+  const Real zw_6 = state.z[6] * (w6pp_x + (w6pp_x - state.z[6]));
   const Real bax6 = h6b_x * w6pp_y + h6b_y * w5_z;
   const Real bdf6_x = h6b_x * zw_6;
   const Real bdf6_y = h6b_y * zw_6;
   const Real bdf6_z = z2_6 * bax6;
-  const Real bdn6_x = S6b_yz * zz_6 + bKy6 * z2_6;
+  const Real bdn6_x = S6b_yz * zz_6 - bKy6 * z2_6;
   const Real bn6c_x = Real(0.088) * bdf6_y;
   const Real bn6c_z = Real(0.088) * bdf6_z + (S6b_xz * zz_6 - bKx6 * z2_6);
-  const Real bf5_y = s5 * bdf6_z - (bdf5_y + c5 * bdf6_x);
-  const Real bf5_z = bdf5_z + bdf6_y;
-  const Real bn5_x = s5 * bdn6_x + (c5 * bn6c_x + (S5b_yz * zz_5 + bKy5 * z2_5));
-  const Real bn5c_x = Real(0.384) * bf5_z + (s5 * bn6c_x - (c5 * bdn6_x - (S5b_xz * zz_5 - bKx5 * z2_5)));
+  const Real bf5_y = c5 * bdf6_x - (bdf5_y - s5 * bdf6_z);
+  const Real bf5_z = bdf5_z - bdf6_y;
+  const Real bn5_x = S5b_yz * zz_5 - bKy5 * z2_5 - (c5 * bn6c_x - s5 * bdn6_x);
+  const Real bn5c_x = c5 * bdn6_x + s5 * bn6c_x - (Real(0.384) * bf5_z + (S5b_xz * zz_5 + bKx5 * z2_5));
   const Real bn5c_y = bn6c_z + Real(0.384) * bf5_y;
-  const Real bf4_x = s4 * bf5_z + (bdf4_x + c4 * bf5_y);
+  const Real bf4_x = c4 * bf5_y + (bdf4_x + s4 * bf5_z);
   const Real bf4_y = s4 * bf5_y - (bdf4_y + c4 * bf5_z);
-  const Real bf4_z = s5 * bdf6_x + (c5 * bdf6_z + (bdf4_z - bdf5_x));
-  const Real bn4_x = s4 * bn5c_y - (c4 * bn5c_x + (S4b_yz * zz_4 + bKy4 * z2_4));
+  const Real bf4_z = s5 * bdf6_x - (c5 * bdf6_z + (bdf4_z - bdf5_x));
+  const Real bn4_x = bKy4 * z2_4 + (s4 * bn5c_y + (S4b_yz * zz_4 + c4 * bn5c_x));
   const Real bn4c_x = bn5_x + Real(0.0825) * bf4_y;
-  const Real bn4c_z = Real(0.0825) * bf4_z - (s4 * bn5c_x + (c4 * bn5c_y + (S4b_xz * zz_4 + bKx4 * z2_4)));
-  const Real bf3_x = s3 * bf4_x + (bdf3_x - c3 * bf4_z);
-  const Real bf3_y = s3 * bf4_z - (bdf3_y - c3 * bf4_x);
+  const Real bn4c_z = bKx4 * z2_4 + (s4 * bn5c_x - (c4 * bn5c_y - (S4b_xz * zz_4 - Real(0.0825) * bf4_z)));
+  const Real bf3_x = s3 * bf4_x + (bdf3_x + c3 * bf4_z);
+  const Real bf3_y = c3 * bf4_x - (bdf3_y + s3 * bf4_z);
   const Real bf3_z = bdf3_z - bf4_y;
-  const Real bn3c_x = Real(0.316) * bf3_z + (s3 * bn4c_x - (c3 * bn4_x + (S3b_xz * zz_3 - bKx3 * z2_3)));
-  const Real bn3c_y = Real(0.0825) * bf3_x + (bn4c_z - Real(0.316) * bf3_y);
-  const Real bn3c_z = Real(0.0825) * bf3_z + (s3 * bn4_x + (c3 * bn4c_x - (S3b_yz * zz_3 + bKy3 * z2_3)));
-  const Real bn2_x = s2 * bn3c_y + (c2 * bn3c_x + (S2b_yz * zz_2 + bKy2 * z2_2));
-  const Real b_6 = input.u[6] + (w6pp_y * bKy6 + (w5_z * bKx6 - (h6b_y * ba6o_y - (h6b_x * ba6o_z - (S6b_yz *
-      bal5p_y + (Real(0.006684151967360946) * bal6p_x - S6b_xz * bal6p_y))))));
-  const Real S1b_zz = S2c_xx + S2c_yy;
-  const Real p3_3n_y = Real(0.0825) * h3b_y + (S3b_zz - h3b_x * Real(0.316));
+  const Real bn3c_x = bKx3 * z2_3 + (c3 * bn4_x - (S3b_xz * zz_3 + (s3 * bn4c_x + Real(0.316) * bf3_z)));
+  const Real bn3c_y = bn4c_z - (Real(0.316) * bf3_y - Real(0.0825) * bf3_x);
+  const Real bn3c_z = bKy3 * z2_3 - (s3 * bn4_x - (S3b_yz * zz_3 - (c3 * bn4c_x + Real(0.0825) * bf3_z)));
+  const Real bn2_x = bKy2 * z2_2 + (c2 * bn3c_x + (S2b_yz * zz_2 - s2 * bn3c_y));
+  const Real b_6 = h6b_y * ba6o_y + (h6b_x * ba6o_z - (Real(0.006684151967360946) * bal6p_x + w6pp_y * bKy6 -
+      (S6b_xz * bal6p_y + (w5_z * bKx6 - (S6b_yz * bal5p_y - input.u[6])))));
+  const Real p3_3n_y = S3b_zz - (h3b_x * Real(0.316) - Real(0.0825) * h3b_y);
   const Real p3_3N_x = c2 * S3b_yz - s2 * p3_3n_y;
   const Real p4_4l_x = h4b_x * Real(0.0825);
-  const Real p4_4n_x = S4b_zz + p4_4l_x;
+  const Real p4_4n_x = S4b_zz - p4_4l_x;
   const Real p4_3l_x = h4b_x * Real(0.316);
-  const Real p4_3n_x = p4_3l_x + (c3 * S4b_xz - s3 * p4_4n_x);
-  const Real p4_3n_y = s3 * t152 - (S4b_yz + c3 * t199);
-  const Real p4_3n_z = s3 * S4b_xz - (p4_4l_x - c3 * p4_4n_x);
+  const Real p4_3n_x = s3 * p4_4n_x - (c3 * S4b_xz - p4_3l_x);
+  const Real p4_3n_y = S4b_yz - (c3 * t199 - s3 * t152);
+  const Real p4_3n_z = c3 * p4_4n_x + (p4_4l_x + s3 * S4b_xz);
   const Real p4_3N_x = c2 * p4_3n_x - s2 * p4_3n_y;
   const Real p5_5l_y = h5b_x * Real(0.384);
-  const Real p5_5n_y = S5b_zz + p5_5l_y;
+  const Real p5_5n_y = S5b_zz - p5_5l_y;
   const Real p5_5F_x = c4 * h5b_x;
   const Real p5_5F_y = s4 * h5b_x;
-  const Real p5_5N_x = c4 * S5b_yz - s4 * p5_5n_y;
+  const Real p5_5N_x = c4 * S5b_yz + s4 * p5_5n_y;
   const Real p5_4l_x = Real(0.0825) * p5_5F_y;
   const Real p5_4l_z = h5b_y * Real(0.0825);
   const Real p5_4n_x = S5b_xz - p5_4l_x;
-  const Real p5_4n_z = p5_4l_z + (c4 * p5_5n_y + s4 * S5b_yz);
+  const Real p5_4n_z = s4 * S5b_yz - (c4 * p5_5n_y - p5_4l_z);
   const Real p5_4F_x = c3 * h5b_y + s3 * p5_5F_x;
   const Real p5_4F_y = c3 * p5_5F_x - s3 * h5b_y;
   const Real p5_3l_x = Real(0.316) * p5_5F_y;
-  const Real p5_3n_x = p5_3l_x - (c3 * p5_5N_x - s3 * p5_4n_x);
-  const Real p5_3n_y = Real(0.0825) * p5_4F_x - (p5_4n_z + Real(0.316) * p5_4F_y);
+  const Real p5_3n_x = c3 * p5_5N_x - (s3 * p5_4n_x + p5_3l_x);
+  const Real p5_3n_y = p5_4n_z + (Real(0.316) * p5_4F_y - Real(0.0825) * p5_4F_x);
   const Real p5_3n_z = s3 * p5_5N_x + (p5_4l_x + c3 * p5_4n_x);
   const Real p5_3N_x = c2 * p5_3n_x - s2 * p5_3n_y;
   const Real p6_6l_x = h6b_x * Real(0.088);
@@ -1023,36 +974,36 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real p6_6N_x = c5 * p6_6n_x - s5 * S6b_xz;
   const Real p6_5l_x = h6b_x * Real(0.384);
   const Real p6_5l_y = Real(0.384) * p6_6F_y;
-  const Real p6_5n_x = p6_5l_x - (c5 * S6b_xz + s5 * p6_6n_x);
+  const Real p6_5n_x = s5 * p6_6n_x + (c5 * S6b_xz - p6_5l_x);
   const Real p6_5n_y = S6b_yz - p6_5l_y;
   const Real p6_5F_x = c4 * p6_6F_y + s4 * h6b_x;
   const Real p6_5F_y = c4 * h6b_x - s4 * p6_6F_y;
-  const Real p6_5N_x = c4 * p6_5n_x + s4 * p6_5n_y;
+  const Real p6_5N_x = c4 * p6_5n_x - s4 * p6_5n_y;
   const Real p6_4l_x = Real(0.0825) * p6_5F_y;
   const Real p6_4l_z = Real(0.0825) * p6_6F_x;
   const Real p6_4n_x = p6_6N_x + p6_4l_x;
-  const Real p6_4n_z = p6_4l_z - (c4 * p6_5n_y - s4 * p6_5n_x);
+  const Real p6_4n_z = s4 * p6_5n_x + (c4 * p6_5n_y - p6_4l_z);
   const Real p6_4F_x = c3 * p6_6F_x + s3 * p6_5F_x;
   const Real p6_4F_y = c3 * p6_5F_x - s3 * p6_6F_x;
   const Real p6_3l_x = Real(0.316) * p6_5F_y;
-  const Real p6_3n_x = p6_3l_x + (c3 * p6_5N_x - s3 * p6_4n_x);
-  const Real p6_3n_y = Real(0.0825) * p6_4F_x - (p6_4n_z + Real(0.316) * p6_4F_y);
-  const Real p6_3n_z = s3 * p6_5N_x - (p6_4l_x - c3 * p6_4n_x);
-  const Real p6_3N_x = c2 * p6_3n_x + s2 * p6_3n_y;
-  const Real p6_3N_y = c2 * p6_3n_y - s2 * p6_3n_x;
+  const Real p6_3n_x = c3 * p6_5N_x + (s3 * p6_4n_x - p6_3l_x);
+  const Real p6_3n_y = Real(0.0825) * p6_4F_x + (p6_4n_z - Real(0.316) * p6_4F_y);
+  const Real p6_3n_z = s3 * p6_5N_x + (p6_4l_x - c3 * p6_4n_x);
+  const Real p6_3N_x = c2 * p6_3n_x - s2 * p6_3n_y;
+  const Real p6_3N_y = c2 * p6_3n_y + s2 * p6_3n_x;
   const Real p6_2N_x = c1 * p6_3n_z - s1 * p6_3N_x;
   const Real L_6_5 = S6b_yz * Real(149.60760989322966);
-  const Real H6_5_5 = S5b_zz + S6b_yz * L_6_5;
+  const Real H6_5_5 = S5b_zz - S6b_yz * L_6_5;
   const Real H6_5_4 = S5b_xz - p6_6N_x * L_6_5;
-  const Real H6_5_3 = p5_4n_z - p6_4n_z * L_6_5;
-  const Real H6_5_2 = p5_3n_z - p6_3n_z * L_6_5;
-  const Real G6_5n_x = p6_2N_x * L_6_5 - (c1 * p5_3n_z + s1 * p5_3N_x);
-  const Real G6_5n_z = p6_3N_y * L_6_5 - (c2 * p5_3n_y + s2 * p5_3n_x);
+  const Real H6_5_3 = p5_4n_z + p6_4n_z * L_6_5;
+  const Real H6_5_2 = p5_3n_z + p6_3n_z * L_6_5;
+  const Real G6_5n_x = p6_2N_x * L_6_5 + (c1 * p5_3n_z - s1 * p5_3N_x);
+  const Real G6_5n_z = p6_3N_y * L_6_5 + (c2 * p5_3n_y + s2 * p5_3n_x);
   const Real L_6_4 = p6_6N_x * Real(149.60760989322966);
   const Real L_6_3 = p6_4n_z * Real(149.60760989322966);
   const Real L_6_2 = p6_3n_z * Real(149.60760989322966);
-  const Real u6_5 = b_6 * L_6_5 + (input.u[5] - (bn6c_z - (w5pp_x * bKx5 + (w4_z * bKy5 + (h5b_y * ba5o_z -
-      (h5b_x * ba5o_x - (S5b_yz * bal5p_x - (S5b_zz * bal5p_y - S5b_xz * bal4p_x))))))));
+  const Real u6_5 = b_6 * L_6_5 - (h5b_x * ba5o_x - (h5b_y * ba5o_z + (S5b_yz * bal5p_x + (S5b_zz * bal5p_y +
+      (S5b_xz * bal4p_x + input.u[5])))) + (bn6c_z + (w4_z * bKy5 + w5pp_x * bKx5)));
   const Real GD6n_x = p6_2N_x * Real(149.60760989322966);
   const Real GD6n_z = p6_3N_y * Real(149.60760989322966);
   const Real I1_6J_xx = p6_2N_x * GD6n_x;
@@ -1062,56 +1013,56 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real f1_6n_z = b_6 * GD6n_z;
   const Real invD_5 = Real(1.0) / H6_5_5;
   const Real L_5_4 = H6_5_4 * invD_5;
-  const Real H5_4_4 = H6_5_4 * L_5_4 - (S4b_zz + p6_6N_x * L_6_4);
-  const Real H5_4_3 = H6_5_3 * L_5_4 + (S4b_yz - p6_4n_z * L_6_4);
-  const Real H5_4_2 = H6_5_2 * L_5_4 - (p4_3n_z + p6_3n_z * L_6_4);
-  const Real G5_4n_x = G6_5n_x * L_5_4 + (p6_2N_x * L_6_4 + (c1 * p4_3n_z - s1 * p4_3N_x));
-  const Real G5_4n_z = G6_5n_z * L_5_4 + (p6_3N_y * L_6_4 - (c2 * p4_3n_y + s2 * p4_3n_x));
+  const Real H5_4_4 = S4b_zz - (p6_6N_x * L_6_4 + H6_5_4 * L_5_4);
+  const Real H5_4_3 = S4b_yz - (p6_4n_z * L_6_4 - H6_5_3 * L_5_4);
+  const Real H5_4_2 = p4_3n_z + (p6_3n_z * L_6_4 - H6_5_2 * L_5_4);
+  const Real G5_4n_x = s1 * p4_3N_x - (G6_5n_x * L_5_4 - (c1 * p4_3n_z + p6_2N_x * L_6_4));
+  const Real G5_4n_z = s2 * p4_3n_x + (G6_5n_z * L_5_4 + (c2 * p4_3n_y - p6_3N_y * L_6_4));
   const Real L_5_3 = H6_5_3 * invD_5;
   const Real L_5_2 = H6_5_2 * invD_5;
-  const Real u5_4 = u6_5 * L_5_4 + (b_6 * L_6_4 + (input.u[4] - (bn5_x + (w4pp_y * bKy4 + (w3_z * bKx4 +
-      (h4b_y * ba4o_y - (h4b_x * ba4o_z - (S4b_yz * bal3p_y + (S4b_zz * bal4p_x + S4b_xz * bal4p_y)))))))));
+  const Real u5_4 = w3_z * bKx4 + w4pp_y * bKy4 - (u6_5 * L_5_4 - (b_6 * L_6_4 - (bn5_x - (S4b_zz * bal4p_x +
+      (h4b_y * ba4o_y - (h4b_x * ba4o_z - input.u[4])) + (S4b_xz * bal4p_y + S4b_yz * bal3p_y)))));
   const Real GD5n_x = G6_5n_x * invD_5;
   const Real GD5n_z = G6_5n_z * invD_5;
   const Real invD_4 = Real(1.0) / H5_4_4;
   const Real L_4_3 = H5_4_3 * invD_4;
-  const Real H4_3_3 = H5_4_3 * L_4_3 - (H6_5_3 * L_5_3 + (S3b_zz - p6_4n_z * L_6_3));
-  const Real H4_3_2 = H5_4_2 * L_4_3 - (H6_5_2 * L_5_3 + (S3b_xz - p6_3n_z * L_6_3));
-  const Real G4_3n_x = G5_4n_x * L_4_3 - (G6_5n_x * L_5_3 + (p6_2N_x * L_6_3 - (c1 * S3b_xz - s1 * p3_3N_x)));
-  const Real G4_3n_z = G5_4n_z * L_4_3 - (G6_5n_z * L_5_3 + (p6_3N_y * L_6_3 + (c2 * p3_3n_y + s2 * S3b_yz)));
+  const Real H4_3_3 = H5_4_3 * L_4_3 - (S3b_zz - (p6_4n_z * L_6_3 + H6_5_3 * L_5_3));
+  const Real H4_3_2 = H5_4_2 * L_4_3 - (S3b_xz + (p6_3n_z * L_6_3 + H6_5_2 * L_5_3));
+  const Real G4_3n_x = s1 * p3_3N_x - (G5_4n_x * L_4_3 - (c1 * S3b_xz + (p6_2N_x * L_6_3 + G6_5n_x * L_5_3)));
+  const Real G4_3n_z = G5_4n_z * L_4_3 + (p6_3N_y * L_6_3 + G6_5n_z * L_5_3) - (c2 * p3_3n_y + s2 * S3b_yz);
   const Real L_4_2 = H5_4_2 * invD_4;
-  const Real u4_3 = u5_4 * L_4_3 - (u6_5 * L_5_3 + (b_6 * L_6_3 - (input.u[3] + (bn4c_z - (w3pp_x * bKx3 +
-      (w2_z * bKy3 - (h3b_y * ba3o_z + (h3b_x * ba3o_x - (S3b_yz * bal3p_x - (S3b_zz * bal3p_y - S3b_xz *
-      bal2p_x))))))))));
+  const Real u4_3 = w3pp_x * bKx3 - (w2_z * bKy3 + (u5_4 * L_4_3 - (bn4c_z + u6_5 * L_5_3 + (S3b_xz * bal2p_x
+      + b_6 * L_6_3 - (S3b_yz * bal3p_x - (S3b_zz * bal3p_y + (h3b_y * ba3o_z + (h3b_x * ba3o_x +
+      input.u[3]))))))));
   const Real GD4n_x = G5_4n_x * invD_4;
   const Real GD4n_z = G5_4n_z * invD_4;
   const Real invD_3 = Real(1.0) / H4_3_3;
   const Real L_3_2 = H4_3_2 * invD_3;
-  const Real H3_2_2 = H4_3_2 * L_3_2 - (H5_4_2 * L_4_2 - (H6_5_2 * L_5_2 + (S2b_zz - p6_3n_z * L_6_2)));
-  const Real G3_2n_x = G4_3n_x * L_3_2 - (G5_4n_x * L_4_2 - (G6_5n_x * L_5_2 + (p6_2N_x * L_6_2 - (c1 * S2b_zz
-      - s1 * S2b_xz))));
-  const Real G3_2n_z = G4_3n_z * L_3_2 - (G5_4n_z * L_4_2 - (G6_5n_z * L_5_2 + (S2b_yz + p6_3N_y * L_6_2)));
-  const Real u3_2 = u4_3 * L_3_2 - (u5_4 * L_4_2 - (u6_5 * L_5_2 + (b_6 * L_6_2 + (input.u[2] - (bn3c_z -
-      (w2pp_y * bKy2 + (h2b_y * bL1a_y + (S2b_xz * bal2p_y + (state.z[1] * bKx2 + S2b_zz * bal2p_x)))))))));
+  const Real H3_2_2 = H4_3_2 * L_3_2 + (S2b_zz - (H5_4_2 * L_4_2 + (p6_3n_z * L_6_2 + H6_5_2 * L_5_2)));
+  const Real G3_2n_x = G4_3n_x * L_3_2 + (G5_4n_x * L_4_2 + (p6_2N_x * L_6_2 + G6_5n_x * L_5_2)) - (c1 *
+      S2b_zz + s1 * S2b_xz);
+  const Real G3_2n_z = G4_3n_z * L_3_2 + (S2b_yz - (G5_4n_z * L_4_2 - (p6_3N_y * L_6_2 + G6_5n_z * L_5_2)));
+  const Real u3_2 = w2pp_y * bKy2 - (state.z[1] * bKx2 - (u4_3 * L_3_2 - (S2b_zz * bal2p_x - (u5_4 * L_4_2 +
+      (u6_5 * L_5_2 + (b_6 * L_6_2 - (h2b_y * bL1a_y + input.u[2])))) - (S2b_xz * bal2p_y - bn3c_z))));
   const Real GD3n_x = G4_3n_x * invD_3;
   const Real GD3n_z = G4_3n_z * invD_3;
   const Real invD_2 = Real(1.0) / H3_2_2;
   const Real GD2n_x = G3_2n_x * invD_2;
   const Real GD2n_z = G3_2n_z * invD_2;
-  const Real I1rJ_xz = G3_2n_z * GD2n_x - (G4_3n_z * GD3n_x - (G5_4n_z * GD4n_x - (G6_5n_z * GD5n_x -
-      (I1_6J_xz + (c1 * S2c_xz + s1 * S2c_yz)))));
-  const Real I1rJ_zz = G3_2n_z * GD2n_z - (G4_3n_z * GD3n_z - (G5_4n_z * GD4n_z - (G6_5n_z * GD5n_z + (S1b_zz
-      - I1_6J_zz))));
+  const Real I1rJ_xz = G3_2n_z * GD2n_x - (s1 * S2c_yz - (c1 * S2c_xz - (G4_3n_z * GD3n_x + (G5_4n_z * GD4n_x
+      - (I1_6J_xz + G6_5n_z * GD5n_x)))));
+  const Real I1rJ_zz = G3_2n_z * GD2n_z - (S2c_yy + (G4_3n_z * GD3n_z + (S2c_xx - (G5_4n_z * GD4n_z +
+      (I1_6J_zz + G6_5n_z * GD5n_z)))));
   const Real U1_0i = Real(1.0) / I1rJ_zz;
   const Real U1_0sn_x = I1rJ_xz * U1_0i;
-  const Real U1_0u = u3_2 * GD2n_z - (u4_3 * GD3n_z - (u5_4 * GD4n_z - (u6_5 * GD5n_z - (f1_6n_z - (input.u[1]
-      + (s2 * bn3c_x - (c2 * bn3c_y + (bKx2 * z2_2 + (S2b_xz * zz_2 - (h1b_y * Real(9.81) + state.z[0] *
-      bKy1))))))))));
-  const Real I0sJ_zz = S2b_zz - (s1 * S1b_t + (I1_6J_xx - (G6_5n_x * GD5n_x - (G5_4n_x * GD4n_x - (G4_3n_x *
-      GD3n_x - (G3_2n_x * GD2n_x - I1rJ_xz * U1_0sn_x)))))) + Real(0.03733744848940618);
-  const Real U0_0u = U1_0sn_x * U1_0u - (u3_2 * GD2n_x - (u4_3 * GD3n_x - (u5_4 * GD4n_x - (u6_5 * GD5n_x -
-      (f1_6n_x + (input.u[0] - (s1 * bn2_x + (c1 * bn3c_z + (S1b_yz * zz_1 + Real(2.0) * (state.z[1] *
-      bKy1))))))))));
+  const Real U1_0u = state.z[0] * bKy1 + (u3_2 * GD2n_z + (bKx2 * z2_2 - (u4_3 * GD3n_z - (s2 * bn3c_x -
+      (S2b_xz * zz_2 + (u5_4 * GD4n_z - (c2 * bn3c_y + (u6_5 * GD5n_z + (f1_6n_z - (h1b_y * Real(9.81) +
+      input.u[1]))))))))));
+  const Real I0sJ_zz = I1rJ_xz * U1_0sn_x + (s1 * S1b_t - (G3_2n_x * GD2n_x - (G4_3n_x * GD3n_x + (S2b_zz -
+      (G5_4n_x * GD4n_x + (G6_5n_x * GD5n_x + (I1_6J_xx - Real(0.03733744848940618))))))));
+  const Real U0_0u = U1_0sn_x * U1_0u + (bKy1 * (Real(2.0) * state.z[1]) - (u3_2 * GD2n_x - (s1 * bn2_x -
+      (S1b_yz * (state.z[1] * state.z[1]) - (u4_3 * GD3n_x + (c1 * bn3c_z - (u5_4 * GD4n_x + (u6_5 * GD5n_x -
+      (input.u[0] - f1_6n_x)))))))));
   const Real acc0u = U0_0u / I0sJ_zz;
   const Real acc1u = U1_0i * U1_0u;
   const Real zdot_1 = acc1u - U1_0sn_x * acc0u;
@@ -1120,16 +1071,16 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real y_3 = u4_3 * invD_3;
   const Real zdot_3 = L_3_2 * yh_2 - (GD3n_z * zdot_1 - (y_3 - GD3n_x * acc0u));
   const Real y_4 = u5_4 * invD_4;
-  const Real zdot_4 = L_4_2 * yh_2 - (L_4_3 * zdot_3 + (GD4n_z * zdot_1 - (y_4 - GD4n_x * acc0u)));
+  const Real zdot_4 = L_4_3 * zdot_3 - (L_4_2 * yh_2 - (GD4n_z * zdot_1 + (y_4 - GD4n_x * acc0u)));
   const Real y_5 = u6_5 * invD_5;
-  const Real zdot_5 = L_5_2 * yh_2 - (L_5_3 * zdot_3 + (L_5_4 * zdot_4 + (GD5n_z * zdot_1 - (y_5 - GD5n_x *
+  const Real zdot_5 = L_5_4 * zdot_4 + (L_5_3 * zdot_3 + (L_5_2 * yh_2 + (GD5n_z * zdot_1 - (y_5 - GD5n_x *
       acc0u))));
   const Real y_6 = b_6 * Real(149.60760989322966);
-  const Real zdot_6 = L_6_2 * yh_2 - (L_6_3 * zdot_3 + (L_6_4 * zdot_4 - (L_6_5 * zdot_5 + (GD6n_z * zdot_1 -
+  const Real zdot_6 = L_6_5 * zdot_5 - (L_6_4 * zdot_4 - (L_6_3 * zdot_3 + (L_6_2 * yh_2 + (GD6n_z * zdot_1 -
       (y_6 - GD6n_x * acc0u)))));
-  zdot[0] = -acc0u;
+  zdot[0] = acc0u;
   zdot[1] = zdot_1;
-  zdot[2] = -yh_2;
+  zdot[2] = yh_2;
   zdot[3] = -zdot_3;
   zdot[4] = zdot_4;
   zdot[5] = -zdot_5;
@@ -1186,15 +1137,15 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real ala3U1_z = ala3al_x + ala3w12;
   const Real ala3U2_x = ala3al_y - ala3w02;
   const Real ala3U2_z = ala3w00 + ala3w11;
-  const Real ala3o_x = ala3U0_x * Real(0.0825) + (ala3p_x - ala3U0_z * Real(0.316));
-  const Real ala3o_y = ala3U1_x * Real(0.0825) + (ala3p_y + ala3U1_z * Real(0.316));
+  const Real ala3o_x = ala3U0_z * Real(0.316) - (ala3p_x + ala3U0_x * Real(0.0825));
+  const Real ala3o_y = ala3U1_z * Real(0.316) + (ala3p_y + ala3U1_x * Real(0.0825));
   const Real ala3o_z = ala3U2_x * Real(0.0825) - (ala2p_x - ala3U2_z * Real(0.316));
   const Real ala3A_x = ala2A_z - w3pp_x * state.z[3];
   const Real ala3A_y = ala3al_x - w2_z * state.z[3];
   const Real ala3A_z = ala3al_y - zdot[3];
   const Real ala4al_x = c3 * ala3A_x + s3 * ala3A_y;
-  const Real ala4p_x = c3 * ala3o_z - s3 * ala3o_x;
-  const Real ala4p_y = c3 * ala3o_x + s3 * ala3o_z;
+  const Real ala4p_x = c3 * ala3o_z + s3 * ala3o_x;
+  const Real ala4p_y = c3 * ala3o_x - s3 * ala3o_z;
   const Real ala4w00 = w4pp_x * w4pp_x;
   const Real ala4w01 = w4pp_x * w4pp_y;
   const Real ala4w12 = w3_z * w4pp_y;
@@ -1203,7 +1154,7 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real ala4U1_y = ala4w00 + ala4w22;
   const Real ala4U2_y = ala4al_x + ala4w12;
   const Real ala4o_x = ala4p_x - Real(0.0825) * ala4U0_y;
-  const Real ala4o_y = ala4p_y - Real(0.0825) * ala4U1_y;
+  const Real ala4o_y = ala4p_y + Real(0.0825) * ala4U1_y;
   const Real ala4o_z = ala3o_y - Real(0.0825) * ala4U2_y;
   const Real ala4np_y = c3 * ala3A_y - s3 * ala3A_x;
   const Real ala4A_x = ala4np_y - w3_z * state.z[4];
@@ -1211,8 +1162,8 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real ala4A_z = ala4al_x + zdot[4];
   const Real ala5al_x = c4 * ala4A_x - s4 * ala4A_y;
   const Real ala5al_y = c4 * ala4A_y + s4 * ala4A_x;
-  const Real ala5p_x = c4 * ala4o_y - s4 * ala4o_z;
-  const Real ala5p_y = c4 * ala4o_z + s4 * ala4o_y;
+  const Real ala5p_x = c4 * ala4o_y + s4 * ala4o_z;
+  const Real ala5p_y = c4 * ala4o_z - s4 * ala4o_y;
   const Real ala5w00 = w5pp_x * w5pp_x;
   const Real ala5w02 = w4_z * w5pp_x;
   const Real ala5w11 = w5pp_y * w5pp_y;
@@ -1220,15 +1171,15 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real ala5U0_z = ala5al_y + ala5w02;
   const Real ala5U1_z = ala5al_x + ala5w12;
   const Real ala5U2_z = ala5w00 + ala5w11;
-  const Real ala5o_x = ala5p_x - ala5U0_z * Real(0.384);
+  const Real ala5o_x = ala5p_x + ala5U0_z * Real(0.384);
   const Real ala5o_y = ala5p_y + ala5U1_z * Real(0.384);
   const Real ala5o_z = ala4o_x + ala5U2_z * Real(0.384);
   const Real ala5A_x = ala4A_z - w5pp_x * state.z[5];
   const Real ala5A_y = ala5al_x - w4_z * state.z[5];
   const Real ala5A_z = ala5al_y - zdot[5];
   const Real ala6al_x = c5 * ala5A_x + s5 * ala5A_y;
-  const Real ala6p_x = c5 * ala5o_z - s5 * ala5o_x;
-  const Real ala6p_y = c5 * ala5o_x + s5 * ala5o_z;
+  const Real ala6p_x = c5 * ala5o_z + s5 * ala5o_x;
+  const Real ala6p_y = c5 * ala5o_x - s5 * ala5o_z;
   const Real ala6w00 = w6pp_x * w6pp_x;
   const Real ala6w01 = w6pp_x * w6pp_y;
   const Real ala6w12 = w5_z * w6pp_y;
@@ -1237,7 +1188,7 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real ala6U1_y = ala6w00 + ala6w22;
   const Real ala6U2_y = ala6al_x + ala6w12;
   const Real ala6o_x = ala6p_x + ala6U0_y * Real(0.088);
-  const Real ala6o_y = ala6p_y + ala6U1_y * Real(0.088);
+  const Real ala6o_y = ala6p_y - ala6U1_y * Real(0.088);
   const Real ala6o_z = ala5o_y + ala6U2_y * Real(0.088);
   const Real ala6np_y = c5 * ala5A_y - s5 * ala5A_x;
   const Real ala6A_x = ala6np_y + w5_z * state.z[6];
@@ -1253,32 +1204,14 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real aL1U2_x = t65 + ala2np_y;
   const Real aL1U2_y = t62 - ala2np_x;
   const Real aL1U2_z = state.z[0] * state.z[0];
-  const Real aL1n_x = (aL1U1_y - aL1U2_z) * Real(0.01026110182100817) + (aL1U1_x * Real(0.0007689361029464) +
-      (aL1U2_x * Real(0.00398335888393552) + aL1U2_y * Real(0.023077882494931805)));
-  const Real aL1n_y = Real(0.0007689361029464) * (ala3U2_z - aL1U2_z) - (aL1U0_y * Real(0.01026110182100817) -
-      (aL1U2_y * Real(0.00398335888393552) + aL1U2_x * Real(1.032162061231881)));
   const Real aL2U0_y = ala2A_z - ala3w01;
   const Real aL2U1_y = ala3w00 + ala3w22;
   const Real aL2U2_y = ala3al_x - ala3w12;
-  const Real aL2n_x = (ala3U2_z - aL2U1_y) * Real(0.013297019103287584) + (ala3U2_x *
-      Real(0.00012191242095074341) + (ala3U1_x * Real(0.24149476342611426) + (aL2U2_y *
-      Real(0.022178148964878235) - ala2p_x * Real(0.028227094878))));
-  const Real aL2n_y = Real(0.24149476342611426) * (ala3U0_x - ala3U2_z) - (aL2U2_y *
-      Real(0.00012191242095074341) + (ala3U2_x * Real(0.0616024210265277) - (ala2p_x * Real(0.746857959872) +
-      aL2U0_y * Real(0.013297019103287584))));
   const Real aL3w02 = w3_z * w4pp_x;
   const Real aL3U0_z = ala4np_y - aL3w02;
   const Real aL3U1_x = ala3A_z + ala4w01;
   const Real aL3U1_z = ala4al_x - ala4w12;
   const Real aL3U2_x = ala4np_y + aL3w02;
-  const Real aL3f_x = ala5U2_z * Real(2.012523553603) - ala4U0_y * Real(0.55278027465);
-  const Real aL3f_y = aL3U1_x * Real(2.012523553603) + ala4U1_y * Real(0.55278027465);
-  const Real aL3n_x = (ala4U1_y - aL2U1_y) * Real(0.0039053550262761) + (aL3U1_x * Real(0.0016444875773692703)
-      + (ala4U2_y * Real(0.051020136156815506) - (ala3o_y * Real(0.55278027465) + aL3U2_x *
-      Real(0.16284087268546085))));
-  const Real aL3n_y = Real(0.0016444875773692703) * (ala5U2_z - aL2U1_y) - (ala4U0_y *
-      Real(0.0039053550262761) + (aL3U2_x * Real(0.6972920750309718) + (ala3o_y * Real(2.012523553603) -
-      ala4U2_y * Real(0.16284087268546085))));
   const Real aL4w01 = w5pp_x * w5pp_y;
   const Real aL4w22 = w4_z * w4_z;
   const Real aL4U0_x = ala5w11 + aL4w22;
@@ -1287,14 +1220,6 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real aL4U1_y = ala5w00 + aL4w22;
   const Real aL4U2_x = ala5al_y - ala5w02;
   const Real aL4U2_y = ala5al_x - ala5w12;
-  const Real aL4f_x = aL4U0_y * Real(0.067870631425) - aL4U0_x * Real(0.014653732538);
-  const Real aL4f_y = aL4U1_y * Real(0.067870631425) + aL4U1_x * Real(0.014653732538);
-  const Real aL4n_x = (ala5U2_z - aL4U1_y) * Real(0.02389827041510187) + (aL4U2_x * Real(0.00151524447332703)
-      + (aL4U2_y * Real(0.010045187828321242) - (aL4U1_x * Real(0.0010267877770288943) - ala4o_x *
-      Real(0.067870631425))));
-  const Real aL4n_y = Real(0.0010267877770288943) * (ala5U2_z - aL4U0_x) + (ala4o_x * Real(0.014653732538) -
-      (aL4U2_y * Real(0.00151524447332703) + (aL4U2_x * Real(0.001451156065026715) - aL4U0_y *
-      Real(0.02389827041510187))));
   const Real aL5w02 = w5_z * w6pp_x;
   const Real aL5w11 = w6pp_y * w6pp_y;
   const Real aL5U0_x = ala6w22 + aL5w11;
@@ -1302,20 +1227,12 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real aL5U1_x = ala5A_z + ala6w01;
   const Real aL5U1_z = ala6al_x - ala6w12;
   const Real aL5U2_x = ala6np_y + aL5w02;
-  const Real aL5f_x = aL5U0_x * Real(0.173804705569) - ala6U0_y * Real(0.231847552695);
-  const Real aL5f_y = aL5U1_x * Real(0.173804705569) + ala6U1_y * Real(0.231847552695);
-  const Real aL5n_x = (ala6U1_y - aL4U1_y) * Real(0.0001037589172186849) + (aL5U2_x *
-      Real(0.014748570382675314) - (ala5o_y * Real(0.231847552695) + (ala6U2_y * Real(0.021522255370587554) -
-      aL5U1_x * Real(9.3569097314605e-05))));
-  const Real aL5n_y = Real(9.3569097314605e-05) * (aL4U1_y - aL5U0_x) + (ala6U2_y * Real(0.014748570382675314)
-      - (aL5U2_x * Real(0.02893442254565989) - (ala5o_y * Real(0.173804705569) + ala6U0_y *
-      Real(0.0001037589172186849))));
   const Real aL6w_x = c6 * w6pp_y - s6 * w5_z;
   const Real aL6w_y = c6 * w5_z + s6 * w6pp_y;
   const Real aL6al_x = c6 * ala6A_x + s6 * ala6A_y;
   const Real aL6al_y = c6 * ala6A_y - s6 * ala6A_x;
-  const Real aL6a_x = c6 * ala6o_y + s6 * ala6o_z;
-  const Real aL6a_y = c6 * ala6o_z - s6 * ala6o_y;
+  const Real aL6a_x = c6 * ala6o_y - s6 * ala6o_z;
+  const Real aL6a_y = c6 * ala6o_z + s6 * ala6o_y;
   const Real aL6w00 = aL6w_x * aL6w_x;
   const Real aL6w01 = aL6w_x * aL6w_y;
   const Real aL6w02 = w6_z * aL6w_x;
@@ -1333,76 +1250,87 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real aL6f_x = aL6U0_y * Real(0.002034439958661797) - aL6U0_x * Real(0.0025736053713382033);
   const Real aL6f_y = aL6U1_y * Real(0.002034439958661797) + aL6U1_x * Real(0.0025736053713382033);
   const Real aL6f_z = aL6U2_y * Real(0.002034439958661797) - aL6U2_x * Real(0.0025736053713382033);
-  const Real aL6n_x = (aL5U0_x - aL6U1_y) * Real(0.0012555365982728983) - (aL6U1_x *
-      Real(0.0009653051699191118) - (aL6U2_x * Real(0.000391391281684248) - (ala6o_x *
-      Real(0.002034439958661797) - aL6U2_y * Real(0.004552547872941088))));
-  const Real aL6n_y = Real(0.0009653051699191118) * (aL5U0_x - aL6U0_x) - (aL6U2_y *
-      Real(0.000391391281684248) + (ala6o_x * Real(0.0025736053713382033) + (aL6U2_x *
-      Real(0.002131604094419858) - aL6U0_y * Real(0.0012555365982728983))));
-  const Real aL6n_z = Real(0.000391391281684248) * (aL6U0_x - aL6U1_y) - (aL6U1_z *
-      Real(0.0009653051699191118) - (aL6a_y * Real(0.0025736053713382033) - (aL6U0_z *
-      Real(0.0012555365982728983) - (aL6U0_y * Real(0.004552547872941088) - (aL6a_x *
-      Real(0.002034439958661797) - aL6U1_x * Real(0.002131604094419858))))));
-  const Real aL6F_x = c6 * aL6f_x + s6 * aL6f_y;
+  const Real aL6n_x = ala6o_x * Real(0.002034439958661797) + (aL6U1_x * Real(0.0009653051699191118) - (aL5U0_x
+      - aL6U1_y) * Real(0.0012555365982728983)) - (aL6U2_y * Real(0.004552547872941088) + aL6U2_x *
+      Real(0.000391391281684248));
+  const Real aL6n_y = ala6o_x * Real(0.0025736053713382033) - (aL6U0_y * Real(0.0012555365982728983) +
+      Real(0.0009653051699191118) * (aL5U0_x - aL6U0_x)) + (aL6U2_x * Real(0.002131604094419858) + aL6U2_y *
+      Real(0.000391391281684248));
+  const Real aL6n_z = aL6a_x * Real(0.002034439958661797) + (aL6U0_y * Real(0.004552547872941088) + (aL6U1_x *
+      Real(0.002131604094419858) + Real(0.000391391281684248) * (aL6U0_x - aL6U1_y))) + (aL6a_y *
+      Real(0.0025736053713382033) - (aL6U0_z * Real(0.0012555365982728983) + aL6U1_z *
+      Real(0.0009653051699191118)));
   const Real aL6F_y = c6 * aL6f_y - s6 * aL6f_x;
-  const Real aL6N_x = c6 * aL6n_x + s6 * aL6n_y;
-  const Real an6c_x = aL6n_z + Real(0.088) * aL6F_y;
-  const Real t524 = aL5f_y - aL6F_x;
-  const Real t526 = aL5f_x + aL6f_z;
-  const Real af5_y = c5 * t524 + s5 * t526;
+  const Real t479 = s6 * aL6f_y + (c6 * aL6f_x - (aL5U1_x * Real(0.173804705569) + ala6U1_y *
+      Real(0.231847552695)));
+  const Real t482 = aL6f_z + (aL5U0_x * Real(0.173804705569) - ala6U0_y * Real(0.231847552695));
+  const Real af5_y = c5 * t479 - s5 * t482;
   const Real af5_z = aL6F_y - (aL5U2_x * Real(0.173804705569) - ala6U2_y * Real(0.231847552695));
-  const Real an5_z = Real(0.014748570382675314) * (ala6U1_y - aL5U0_x) - (Real(0.088) * aL6f_z - (s6 * aL6n_x
-      - (c6 * aL6n_y - (ala6p_x * Real(0.231847552695) + (aL5U1_x * Real(0.02893442254565989) - (aL5U0_z *
-      Real(0.0001037589172186849) + (aL5U1_z * Real(9.3569097314605e-05) - (ala6U0_y *
-      Real(0.021522255370587554) + ala6p_y * Real(0.173804705569)))))))));
-  const Real t543 = aL5n_y - aL6N_x;
-  const Real t545 = aL5n_x - an6c_x;
-  const Real an5c_x = c5 * t543 - (Real(0.384) * af5_z - s5 * t545);
-  const Real an5c_y = an5_z - Real(0.384) * af5_y;
-  const Real t551 = aL4f_x + af5_y;
-  const Real t553 = aL4f_y - af5_z;
-  const Real af4_x = c4 * t551 - s4 * t553;
-  const Real af4_y = c4 * t553 + s4 * t551;
-  const Real af4_z = c5 * t526 - (s5 * t524 + (aL4U2_y * Real(0.067870631425) - aL4U2_x *
+  const Real an5_z = Real(0.088) * aL6f_z + (ala6p_y * Real(0.173804705569) - (aL5U1_x *
+      Real(0.02893442254565989) + (ala6U0_y * Real(0.021522255370587554) + Real(0.014748570382675314) *
+      (ala6U1_y - aL5U0_x))) - (ala6p_x * Real(0.231847552695) - (aL5U1_z * Real(9.3569097314605e-05) +
+      aL5U0_z * Real(0.0001037589172186849)))) - (c6 * aL6n_y - s6 * aL6n_x);
+  const Real t504 = s6 * aL6n_y + (c6 * aL6n_x + (ala5o_y * Real(0.173804705569) + (ala6U0_y *
+      Real(0.0001037589172186849) + Real(9.3569097314605e-05) * (aL4U1_y - aL5U0_x)) - (aL5U2_x *
+      Real(0.02893442254565989) - ala6U2_y * Real(0.014748570382675314))));
+  const Real t511 = aL6n_z + (Real(0.088) * aL6F_y + (ala5o_y * Real(0.231847552695) - (aL5U1_x *
+      Real(9.3569097314605e-05) + (ala6U1_y - aL4U1_y) * Real(0.0001037589172186849)) + (ala6U2_y *
+      Real(0.021522255370587554) - aL5U2_x * Real(0.014748570382675314))));
+  const Real t515 = af5_y - (aL4U0_y * Real(0.067870631425) - aL4U0_x * Real(0.014653732538));
+  const Real t518 = af5_z - (aL4U1_y * Real(0.067870631425) + aL4U1_x * Real(0.014653732538));
+  const Real af4_y = c4 * t518 + s4 * t515;
+  const Real af4_z = s5 * t479 + (c5 * t482 - (aL4U2_y * Real(0.067870631425) - aL4U2_x *
       Real(0.014653732538)));
-  const Real t564 = aL4n_x - an5c_x;
-  const Real t566 = aL4n_y - an5c_y;
-  const Real an4_x = c4 * t564 - s4 * t566;
-  const Real an4_z = c5 * t545 - (s5 * t543 + (Real(0.00151524447332703) * (aL4U0_x - aL4U1_y) - (ala5p_y *
-      Real(0.014653732538) + (ala5U0_z * Real(0.02389827041510187) - (aL4U1_x * Real(0.001451156065026715) +
-      (aL4U0_y * Real(0.010045187828321242) - (ala5U1_z * Real(0.0010267877770288943) - ala5p_x *
-      Real(0.067870631425))))))));
-  const Real an4c_x = an4_z - Real(0.0825) * af4_y;
-  const Real t584 = aL3f_x - af4_z;
-  const Real t586 = aL3f_y - af4_x;
-  const Real af3_x = c3 * t584 - s3 * t586;
-  const Real af3_y = c3 * t586 + s3 * t584;
-  const Real af3_z = af4_y - (aL3U2_x * Real(2.012523553603) - ala4U2_y * Real(0.55278027465));
-  const Real an3_z = c4 * t566 + (s4 * t564 - (Real(0.16284087268546085) * (ala4U1_y - ala5U2_z) +
-      (Real(0.0825) * af4_z + (aL3U0_z * Real(0.0039053550262761) + (aL3U1_z * Real(0.0016444875773692703) +
-      (ala4U0_y * Real(0.051020136156815506) + (aL3U1_x * Real(0.6972920750309718) - (ala4p_y *
-      Real(2.012523553603) + ala4p_x * Real(0.55278027465)))))))));
-  const Real t608 = aL3n_y - an4_x;
-  const Real t610 = aL3n_x - an4c_x;
-  const Real an3c_x = c3 * t608 + (Real(0.316) * af3_z - s3 * t610);
-  const Real an3c_y = Real(0.0825) * af3_x - (an3_z - Real(0.316) * af3_y);
-  const Real t619 = aL2n_x - an3c_x;
-  const Real t621 = aL2n_y - an3c_y;
-  const Real an2_x = c2 * t619 - s2 * t621;
-  const Real an2_z = c3 * t610 + (s3 * t608 + (Real(0.00012191242095074341) * (ala3U0_x - aL2U1_y) -
-      (Real(0.0825) * af3_z - (ala3U1_x * Real(0.0616024210265277) + (ala3U1_z * Real(0.24149476342611426) +
-      (ala3p_x * Real(0.028227094878) - (ala3U0_z * Real(0.013297019103287584) - (aL2U0_y *
-      Real(0.022178148964878235) + ala3p_y * Real(0.746857959872)))))))));
-  const Real an1_z = c2 * t621 + (s2 * t619 + (Real(0.00398335888393552) * (ala3U2_z - aL1U1_y) + (ala2p_y *
-      Real(3.344500043512) + (t61 * Real(0.0007689361029464) - (aL1U0_y * Real(0.023077882494931805) - (t64 *
-      Real(0.01026110182100817) - (aL1U1_x * Real(1.032162061231881) + ala2p_x * Real(0.002031994566))))))));
-  const Real an0_z = c1 * (aL1n_x - an2_z) - (aL0n_z + s1 * (aL1n_y + an2_x));
-  tau[0] = -an0_z;
+  const Real t534 = c5 * t504 - (s5 * t511 + (Real(0.384) * af5_z + (ala4o_x * Real(0.067870631425) - (aL4U1_x
+      * Real(0.0010267877770288943) - (ala5U2_z - aL4U1_y) * Real(0.02389827041510187)) + (aL4U2_y *
+      Real(0.010045187828321242) + aL4U2_x * Real(0.00151524447332703)))));
+  const Real t541 = Real(0.384) * af5_y - (an5_z + (ala4o_x * Real(0.014653732538) + (aL4U0_y *
+      Real(0.02389827041510187) + Real(0.0010267877770288943) * (ala5U2_z - aL4U0_x)) - (aL4U2_x *
+      Real(0.001451156065026715) + aL4U2_y * Real(0.00151524447332703))));
+  const Real an4_z = s5 * t504 + (c5 * t511 - (ala5p_x * Real(0.067870631425) - (Real(0.00151524447332703) *
+      (aL4U0_x - aL4U1_y) + (aL4U0_y * Real(0.010045187828321242) + aL4U1_x * Real(0.001451156065026715))) +
+      (ala5p_y * Real(0.014653732538) + (ala5U1_z * Real(0.0010267877770288943) + ala5U0_z *
+      Real(0.02389827041510187)))));
+  const Real t558 = af4_z - (ala5U2_z * Real(2.012523553603) - ala4U0_y * Real(0.55278027465));
+  const Real t562 = c4 * t515 - (s4 * t518 - (aL3U1_x * Real(2.012523553603) + ala4U1_y *
+      Real(0.55278027465)));
+  const Real af3_x = c3 * t558 + s3 * t562;
+  const Real af3_y = c3 * t562 - s3 * t558;
+  const Real af3_z = af4_y + (aL3U2_x * Real(2.012523553603) - ala4U2_y * Real(0.55278027465));
+  const Real an3_z = s4 * t534 + (c4 * t541 + (Real(0.0825) * af4_z - (ala4p_x * Real(0.55278027465) -
+      Real(0.16284087268546085) * (ala4U1_y - ala5U2_z) - (aL3U1_z * Real(0.0016444875773692703) + (aL3U1_x *
+      Real(0.6972920750309718) + ala4U0_y * Real(0.051020136156815506)) + (ala4p_y * Real(2.012523553603) +
+      aL3U0_z * Real(0.0039053550262761))))));
+  const Real t589 = s4 * t541 - (c4 * t534 + (ala4U2_y * Real(0.16284087268546085) - aL3U2_x *
+      Real(0.6972920750309718) + (Real(0.0016444875773692703) * (ala5U2_z - aL2U1_y) - (ala3o_y *
+      Real(2.012523553603) + ala4U0_y * Real(0.0039053550262761)))));
+  const Real t596 = Real(0.0825) * af4_y - (an4_z - (aL3U2_x * Real(0.16284087268546085) - (ala4U1_y -
+      aL2U1_y) * Real(0.0039053550262761) - (ala4U2_y * Real(0.051020136156815506) - (ala3o_y *
+      Real(0.55278027465) - aL3U1_x * Real(0.0016444875773692703)))));
+  const Real t607 = c3 * t589 - (s3 * t596 - (Real(0.316) * af3_z + (aL2U2_y * Real(0.022178148964878235) +
+      ala3U2_x * Real(0.00012191242095074341) + ((ala3U2_z - aL2U1_y) * Real(0.013297019103287584) - (ala2p_x
+      * Real(0.028227094878) - ala3U1_x * Real(0.24149476342611426))))));
+  const Real t615 = an3_z + (ala3U2_x * Real(0.0616024210265277) + aL2U2_y * Real(0.00012191242095074341) -
+      (Real(0.24149476342611426) * (ala3U0_x - ala3U2_z) + (ala2p_x * Real(0.746857959872) + aL2U0_y *
+      Real(0.013297019103287584)))) + (Real(0.316) * af3_y - Real(0.0825) * af3_x);
+  const Real an2_z = s3 * t589 + (c3 * t596 - (Real(0.0825) * af3_z + (ala3U1_z * Real(0.24149476342611426) +
+      Real(0.00012191242095074341) * (ala3U0_x - aL2U1_y) + (aL2U0_y * Real(0.022178148964878235) + (ala3p_y *
+      Real(0.746857959872) + ala3p_x * Real(0.028227094878)) - (ala3U0_z * Real(0.013297019103287584) -
+      ala3U1_x * Real(0.0616024210265277))))));
+  const Real an1_z = s2 * t607 - (c2 * t615 - (Real(0.00398335888393552) * (ala3U2_z - aL1U1_y) - (ala2p_x *
+      Real(0.002031994566) - t64 * Real(0.01026110182100817) - (t61 * Real(0.0007689361029464) + ala2p_y *
+      Real(3.344500043512)) + (aL1U1_x * Real(1.032162061231881) + aL1U0_y * Real(0.023077882494931805)))));
+  const Real an0_z = s1 * (s2 * t615 + (c2 * t607 + (Real(0.0007689361029464) * (ala3U2_z - aL1U2_z) -
+      (aL1U0_y * Real(0.01026110182100817) - (aL1U2_y * Real(0.00398335888393552) + aL1U2_x *
+      Real(1.032162061231881)))))) + (aL0n_z - c1 * (an2_z + (aL1U2_x * Real(0.00398335888393552) + aL1U2_y *
+      Real(0.023077882494931805) + (aL1U1_x * Real(0.0007689361029464) + (aL1U1_y - aL1U2_z) *
+      Real(0.01026110182100817)))));
+  tau[0] = an0_z;
   tau[1] = -an1_z;
-  tau[2] = an2_z;
-  tau[3] = an3_z;
-  tau[4] = -an4_z;
-  tau[5] = -an5_z;
+  tau[2] = -an2_z;
+  tau[3] = -an3_z;
+  tau[4] = an4_z;
+  tau[5] = an5_z;
   tau[6] = -aL6n_z;
 }
 
@@ -1421,69 +1349,69 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real h6c_y = h6b_x - Real(0.231847552695);
   const Real S6c_xy = S6b_xz - Real(0.014748570382675314);
   const Real S6c_xz = S6b_yz + Real(9.3569097314605e-05);
-  const Real S6c_yy = h6b_x * Real(0.176) - (S6b_xx + Real(0.021522255370587554));
-  const Real S6c_yz = c6 * S6b_t - h6b_y * Real(0.088) - Real(0.0004951501989029329);
-  const Real S5b_zz = S6c_yy - Real(0.02893442254565989);
-  const Real S5b_d = S6c_yy + Real(0.02893442254565989);
-  const Real S5b_t = c5 * S6c_xy * Real(2.0) - s5 * S5b_d;
+  const Real S6c_yy = S6b_xx - (h6b_x * Real(0.176) - Real(0.021522255370587554));
+  const Real S6c_yz = h6b_y * Real(0.088) - (c6 * S6b_t - Real(0.0004951501989029329));
+  const Real S5b_zz = S6c_yy + Real(0.02893442254565989);
+  const Real S5b_d = S6c_yy - Real(0.02893442254565989);
+  const Real S5b_t = S6c_xy * (c5 * Real(2.0)) + s5 * S5b_d;
   const Real S5b_xx = Real(0.02893442254565989) + s5 * S5b_t;
-  const Real S5b_xz = c5 * S6c_xz + s5 * S6c_yz;
-  const Real S5b_yz = c5 * S6c_yz - s5 * S6c_xz;
+  const Real S5b_xz = c5 * S6c_xz - s5 * S6c_yz;
+  const Real S5b_yz = c5 * S6c_yz + s5 * S6c_xz;
   const Real h5b_x = c5 * Real(0.173804705569) + s5 * h6c_y;
   const Real h5b_y = s5 * Real(0.173804705569) - c5 * h6c_y;
   const Real h5c_x = h5b_y - Real(0.014653732538);
   const Real h5c_y = h6b_y - Real(0.067870631425);
-  const Real S5c_xx = S5b_zz + S5b_xx - Real(0.001451156065026715);
-  const Real S5c_xy = S5b_yz + Real(0.00151524447332703);
-  const Real S5c_xz = h5b_y * Real(0.384) - (S6c_xy - c5 * S5b_t + Real(0.0010267877770288943));
+  const Real S5c_xx = S5b_xx - (S5b_zz + Real(0.001451156065026715));
+  const Real S5c_xy = S5b_yz - Real(0.00151524447332703);
+  const Real S5c_xz = c5 * S5b_t + (h5b_y * Real(0.384) - (S6c_xy + Real(0.0010267877770288943)));
   const Real S5c_yy = S6b_xx - Real(0.01672933979568219);
-  const Real S5c_yz = h6b_y * Real(0.384) - (S5b_xz + Real(0.02389827041510187));
+  const Real S5c_yz = S5b_xz - (h6b_y * Real(0.384) - Real(0.02389827041510187));
   const Real S4b_zz = S5c_xx + S5c_yy;
   const Real S4b_d = S5c_xx - S5c_yy;
-  const Real S4b_t = Real(2.0) * (c4 * S5c_xy) - s4 * S4b_d;
-  const Real S4b_xx = S5c_xx + s4 * S4b_t;
-  const Real S4b_xz = c4 * S5c_xz + s4 * S5c_yz;
-  const Real S4b_yz = c4 * S5c_yz - s4 * S5c_xz;
+  const Real S4b_t = S5c_xy * (c4 * Real(2.0)) + s4 * S4b_d;
+  const Real S4b_xx = S5c_xx - s4 * S4b_t;
+  const Real S4b_xz = c4 * S5c_xz - s4 * S5c_yz;
+  const Real S4b_yz = c4 * S5c_yz + s4 * S5c_xz;
   const Real h4b_x = c4 * h5c_x + s4 * h5c_y;
   const Real h4b_y = c4 * h5c_y - s4 * h5c_x;
   const Real h4c_x = h5b_x - Real(2.012523553603);
   const Real h4c_y = h4b_x - Real(0.55278027465);
-  const Real S4c_xx = S5b_xx - h5b_x * Real(0.768) + Real(0.6972920750309718);
-  const Real S4c_xy = h5b_x * Real(0.0825) + (S4b_xz - Real(0.16284087268546085));
-  const Real S4c_xz = S4b_yz + Real(0.0016444875773692703);
-  const Real S4c_yy = S4b_xx + h4b_x * Real(0.165) - Real(0.051020136156815506);
+  const Real S4c_xx = S5b_xx - (h5b_x * Real(0.768) - Real(0.6972920750309718));
+  const Real S4c_xy = S4b_xz + (h5b_x * Real(0.0825) - Real(0.16284087268546085));
+  const Real S4c_xz = S4b_yz - Real(0.0016444875773692703);
+  const Real S4c_yy = S4b_xx + (h4b_x * Real(0.165) - Real(0.051020136156815506));
   const Real t146 = h4b_y * Real(0.0825);
-  const Real S4c_yz = t146 - (S5c_xy - c4 * S4b_t) + Real(0.0039053550262761);
+  const Real S4c_yz = c4 * S4b_t - (t146 + (S5c_xy + Real(0.0039053550262761)));
   const Real S3b_zz = S4c_xx - S4c_yy;
   const Real S3b_d = S4c_xx + S4c_yy;
-  const Real S3b_t = Real(2.0) * (c3 * S4c_xy) - s3 * S3b_d;
+  const Real S3b_t = S4c_xy * (c3 * Real(2.0)) - s3 * S3b_d;
   const Real S3b_xx = S4c_xx + s3 * S3b_t;
   const Real S3b_xz = c3 * S4c_xz - s3 * S4c_yz;
   const Real S3b_yz = c3 * S4c_yz + s3 * S4c_xz;
   const Real h3b_x = c3 * h4c_x - s3 * h4c_y;
   const Real h3b_y = c3 * h4c_y + s3 * h4c_x;
-  const Real S3c_xx = Real(0.165) * h3b_y + (S3b_zz - S3b_xx) + Real(0.0616024210265277);
-  const Real S3c_xy = t146 - S3b_yz - Real(0.00012191242095074341);
-  const Real S3c_xz = Real(0.0825) * h3b_x - (h3b_y * Real(0.316) - (S4c_xy - c3 * S3b_t)) -
-      Real(0.24149476342611426);
-  const Real S3c_yy = S4b_zz - S4b_xx - Real(0.022178148964878235);
-  const Real S3c_yz = S3b_xz + h4b_y * Real(0.316) - Real(0.013297019103287584);
+  const Real S3c_xx = S3b_xx - (S3b_zz + (Real(0.165) * h3b_y + Real(0.0616024210265277)));
+  const Real S3c_xy = S3b_yz + (t146 - Real(0.00012191242095074341));
+  const Real S3c_xz = c3 * S3b_t + (h3b_y * Real(0.316) + Real(0.24149476342611426) - (S4c_xy + Real(0.0825) *
+      h3b_x));
+  const Real S3c_yy = S4b_xx - (S4b_zz - Real(0.022178148964878235));
+  const Real S3c_yz = S3b_xz - (h4b_y * Real(0.316) - Real(0.013297019103287584));
   const Real S2b_zz = S3c_xx - S3c_yy;
   const Real S2b_d = S3c_xx + S3c_yy;
-  const Real S2b_t = Real(2.0) * (c2 * S3c_xy) - s2 * S2b_d;
-  const Real S2b_xx = S3c_xx + s2 * S2b_t;
+  const Real S2b_t = S3c_xy * (c2 * Real(2.0)) + s2 * S2b_d;
+  const Real S2b_xx = S3c_xx - s2 * S2b_t;
   const Real S2b_xz = c2 * S3c_xz - s2 * S3c_yz;
   const Real S2b_yz = c2 * S3c_yz + s2 * S3c_xz;
-  const Real S2c_xx = S3b_xx - h3b_x * Real(0.632) + Real(1.032162061231881);
-  const Real S2c_xy = S2b_xz + Real(0.00398335888393552);
-  const Real S2c_xz = S2b_yz - Real(0.0007689361029464);
-  const Real S2c_yy = S2b_xx + Real(0.023077882494931805);
-  const Real S2c_yz = S3c_xy - c2 * S2b_t - Real(0.01026110182100817);
-  const Real S1b_zz = S2c_xx + S2c_yy;
-  const Real S1b_d = S2c_xx - S2c_yy;
-  const Real S1b_t = Real(2.0) * (c1 * S2c_xy) - s1 * S1b_d;
+  const Real S2c_xx = S3b_xx - (h3b_x * Real(0.632) - Real(1.032162061231881));
+  const Real S2c_xy = S2b_xz - Real(0.00398335888393552);
+  const Real S2c_xz = S2b_yz + Real(0.0007689361029464);
+  const Real S2c_yy = S2b_xx - Real(0.023077882494931805);
+  const Real S2c_yz = c2 * S2b_t - (S3c_xy - Real(0.01026110182100817));
+  const Real S1b_zz = S2c_xx - S2c_yy;
+  const Real S1b_d = S2c_xx + S2c_yy;
+  const Real S1b_t = S2c_xy * (c1 * Real(2.0)) + s1 * S1b_d;
   const Real S1b_xz = c1 * S2c_xz + s1 * S2c_yz;
-  const Real S0b_zz = S2c_yy - (s1 * S1b_t - (S2b_zz - S2b_xx)) + Real(0.014259565994474374);
+  const Real S0b_zz = s1 * S1b_t - (S2c_yy - (S2b_xx - (S2b_zz - Real(0.014259565994474374))));
   const Real w2pp_x = c1 * state.z[0];
   const Real w2pp_y = s1 * state.z[0];
   const Real w2_z = w2pp_x + state.z[2];
@@ -1498,47 +1426,29 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real w5_z = w5pp_y - state.z[5];
   const Real w6pp_x = c5 * w4_z - s5 * w5pp_x;
   const Real w6pp_y = c5 * w5pp_x + s5 * w4_z;
-  const Real v0L_z = S0b_zz * state.z[0];
-  const Real v1L_x = S1b_xz * state.z[1];
-  const Real v1L_z = S1b_zz * state.z[1];
-  const Real v2L_x = S2b_xz * state.z[2];
-  const Real v2L_y = S2b_yz * state.z[2];
   const Real v2L_z = S2b_zz * state.z[2];
   const Real v3o_x = Real(0.316) * w3pp_y;
   const Real v3o_z = Real(0.0825) * w3pp_y;
-  const Real v3P_x = h3b_y * state.z[3];
-  const Real v3P_y = h3b_x * state.z[3];
-  const Real v3L_x = S3b_xz * state.z[3];
-  const Real v3L_y = S3b_yz * state.z[3];
   const Real v3L_z = S3b_zz * state.z[3];
   const Real v4p_y = c3 * v3o_x - s3 * v3o_z;
   const Real v4o_x = Real(0.0825) * w3_z - (c3 * v3o_z + s3 * v3o_x);
   const Real v4o_z = Real(0.316) * w3pp_x - Real(0.0825) * (w2_z - w4pp_x);
-  const Real v4P_x = h4b_y * state.z[4];
-  const Real v4P_y = h4b_x * state.z[4];
-  const Real v4L_x = S4b_xz * state.z[4];
-  const Real v4L_y = S4b_yz * state.z[4];
   const Real v4L_z = S4b_zz * state.z[4];
-  const Real v5o_x = Real(0.384) * w5pp_y + (c4 * v4p_y - s4 * v4o_z);
-  const Real v5P_x = h5b_y * state.z[5];
-  const Real v5P_y = h5b_x * state.z[5];
-  const Real v5L_x = S5b_xz * state.z[5];
-  const Real v5L_y = S5b_yz * state.z[5];
+  const Real v5o_x = s4 * v4o_z - (c4 * v4p_y + Real(0.384) * w5pp_y);
   const Real v5L_z = S5b_zz * state.z[5];
-  const Real v6p_y = c5 * v5o_x + s5 * v4o_x;
-  const Real v6o_z = Real(0.088) * w6pp_x - (Real(0.384) * w5pp_x + (c4 * v4o_z + s4 * v4p_y));
-  const Real v6P_x = h6b_y * state.z[6];
-  const Real v6P_y = h6b_x * state.z[6];
-  const Real v6L_x = S6b_xz * state.z[6];
-  const Real v6L_y = S6b_yz * state.z[6];
+  const Real v6p_y = c5 * v5o_x - s5 * v4o_x;
+  const Real v6o_z = Real(0.088) * w6pp_x - (c4 * v4o_z + (s4 * v4p_y + Real(0.384) * w5pp_x));
   const Real v6L_z = state.z[6] * Real(0.006684151967360946);
-  const Real T6 = (state.z[0] * v0L_z + (state.z[1] * v1L_z + (state.z[2] * v2L_z + (state.z[3] * v3L_z -
-      (state.z[4] * v4L_z + (state.z[5] * v5L_z - state.z[6] * v6L_z)))))) * Real(0.5) + (v6o_z * v6P_y -
-      (v6p_y * v6P_x - (w6pp_y * v6L_x - (w6pp_x * v6L_z - (w5_z * v6L_y + (v5o_x * v5P_y + (v4o_x * v5P_x +
-      (w5pp_y * v5L_z + (w5pp_x * v5L_y + (w4_z * v5L_x - (v4o_z * v4P_y - (v4p_y * v4P_x - (w4pp_y * v4L_x +
-      (w4pp_x * v4L_z - (w3_z * v4L_y - (v3o_z * v3P_x - (v3o_x * v3P_y - (w3pp_y * v3L_z - (w3pp_x * v3L_y -
-      (w2_z * v3L_x + (w2pp_y * v2L_x - (w2pp_x * v2L_z + (state.z[0] * v1L_x + state.z[1] *
-      v2L_y)))))))))))))))))))))));
+  const Real T6 = (S0b_zz * (state.z[0] * state.z[0]) + (S1b_zz * (state.z[1] * state.z[1]) - (state.z[2] *
+      v2L_z - (state.z[3] * v3L_z - (state.z[4] * v4L_z - (state.z[5] * v5L_z + state.z[6] * v6L_z)))))) *
+      Real(0.5) - (S1b_xz * (state.z[0] * state.z[1]) + (S2b_yz * (state.z[2] * state.z[1]) - (S3b_xz * (w2_z
+      * state.z[3]) - (w4pp_x * v4L_z + (S4b_yz * (w3_z * state.z[4]) + (w6pp_x * v6L_z - w6pp_y * (S6b_xz *
+      state.z[6]) - (h4b_y * (state.z[4] * v4p_y) + v4o_x * (h5b_y * state.z[5]) - (w5pp_x * (S5b_yz *
+      state.z[5]) - w5_z * (S6b_yz * state.z[6]))))) + (S4b_xz * (w4pp_y * state.z[4]) - v6p_y * (h6b_y *
+      state.z[6]) - (h3b_x * (state.z[3] * v3o_x) - h3b_y * (state.z[3] * v3o_z) + (v6o_z * (h6b_x *
+      state.z[6]) - (v5o_x * (h5b_x * state.z[5]) + (v4o_z * (h4b_x * state.z[4]) - (S5b_xz * (w4_z *
+      state.z[5]) - w5pp_y * v5L_z))))))) - (S3b_yz * (w3pp_x * state.z[3]) + w3pp_y * v3L_z)) + (w2pp_x *
+      v2L_z - S2b_xz * (w2pp_y * state.z[2]))));
   return T6;
 }
 
@@ -1548,26 +1458,18 @@ Real potential_energy(const Model<Real>&, const State<Real>& state) noexcept {
   detail::sine_cosine4(state.y[1], s1, c1, state.y[2], s2, c2, state.y[3], s3, c3, state.y[4], s4, c4);
   Real s5, c5, s6, c6;
   detail::sine_cosine2(state.y[5], s5, c5, state.y[6], s6, c6);
-  const Real h6b_x = s6 * Real(0.002034439958661797) - c6 * Real(0.0025736053713382033);
-  const Real h6b_y = c6 * Real(0.002034439958661797) + s6 * Real(0.0025736053713382033);
-  const Real h6c_y = h6b_x - Real(0.231847552695);
-  const Real h5b_x = c5 * Real(0.173804705569) + s5 * h6c_y;
-  const Real h5b_y = s5 * Real(0.173804705569) - c5 * h6c_y;
-  const Real h5c_x = h5b_y - Real(0.014653732538);
-  const Real h5c_y = h6b_y - Real(0.067870631425);
-  const Real h4b_x = c4 * h5c_x + s4 * h5c_y;
-  const Real h4b_y = c4 * h5c_y - s4 * h5c_x;
-  const Real h4c_x = h5b_x - Real(2.012523553603);
-  const Real h4c_y = h4b_x - Real(0.55278027465);
-  const Real h3b_x = c3 * h4c_x - s3 * h4c_y;
-  const Real h3b_y = c3 * h4c_y + s3 * h4c_x;
-  const Real h3c_x = h3b_y + Real(0.746857959872);
-  const Real h3c_y = h4b_y - Real(0.028227094878);
-  const Real h2b_x = c2 * h3c_x + s2 * h3c_y;
-  const Real h2c_x = h3b_x - Real(3.344500043512);
-  const Real h2c_y = h2b_x - Real(0.002031994566);
-  const Real h1b_x = c1 * h2c_x + s1 * h2c_y;
-  const Real hg0_z = h1b_x - Real(5.396538059926001);
+  const Real h6c_y = c6 * Real(0.0025736053713382033) - (s6 * Real(0.002034439958661797) -
+      Real(0.231847552695));
+  const Real h5c_x = c5 * h6c_y + (s5 * Real(0.173804705569) - Real(0.014653732538));
+  const Real h5c_y = s6 * Real(0.0025736053713382033) + (c6 * Real(0.002034439958661797) -
+      Real(0.067870631425));
+  const Real h4c_x = s5 * h6c_y - (c5 * Real(0.173804705569) - Real(2.012523553603));
+  const Real h4c_y = c4 * h5c_x + (s4 * h5c_y - Real(0.55278027465));
+  const Real h3c_x = c3 * h4c_y - (s3 * h4c_x - Real(0.746857959872));
+  const Real h3c_y = s4 * h5c_x - (c4 * h5c_y - Real(0.028227094878));
+  const Real h2c_x = s3 * h4c_y + (c3 * h4c_x + Real(3.344500043512));
+  const Real h2c_y = c2 * h3c_x - (s2 * h3c_y + Real(0.002031994566));
+  const Real hg0_z = s1 * h2c_y - (c1 * h2c_x + Real(5.396538059926001));
   const Real V = hg0_z * Real(9.81);
   return -V;
 }

@@ -27,8 +27,8 @@
 //   linearly_implicit_euler_step, ros34pw2_step, rosw43_step, rodas4_step
 // Checked before this file was written
 // - validated at 8 states: in 77 digits everything below agrees to 1e-40 of its scale (what rounding can move
-//   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 4.9e-16 of the
-//   sum of absolute terms, other errors are 2.3e-15 of their scale; cond(M) up to 2.0e+00
+//   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 6.1e-16 of the
+//   sum of absolute terms, other errors are 1.7e-15 of their scale; cond(M) up to 2.0e+00
 // - the symbolic equations (M, k_bar, q_bar, energies, outputs): the numeric reference
 // - initial_state: the assembled start
 // - position_rate: Z z of the equations, z as the loops allow
@@ -208,7 +208,7 @@ template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[3][3]) noexcept;
 
 /// Inertia terms k_bar: Coriolis, centrifugal and those of prescribed motion; no gravity.
-/// 648 operations (373 mul, 271 add and sub, 4 div), 14 sin and cos.
+/// 645 operations (370 mul, 271 add and sub, 4 div), 14 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[3]) noexcept;
 
@@ -220,20 +220,20 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
     noexcept;
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
-/// 787 operations (442 mul, 338 add and sub, 7 div), 14 sin and cos.
+/// 784 operations (439 mul, 338 add and sub, 7 div), 14 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[3]) noexcept;
 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
-/// 710 operations (400 mul, 306 add and sub, 4 div), 14 sin and cos.
+/// 707 operations (397 mul, 306 add and sub, 4 div), 14 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[3], Real
     (&tau)[3]) noexcept;
 
 /// Kinetic energy, J.
-/// 508 operations (295 mul, 209 add and sub, 4 div), 14 sin and cos.
+/// 505 operations (292 mul, 209 add and sub, 4 div), 14 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept;
 
@@ -250,7 +250,7 @@ void outputs(const Model<Real>& model, const State<Real>& state, const Input<Rea
 
 /// Sets the dependent positions to those that close the loops at state.t and the independent positions, near
 /// where they are. Call it after changing a state; steps end with it.
-/// 591 operations (325 mul, 257 add and sub, 9 div), 34 sin and cos.
+/// 589 operations (325 mul, 255 add and sub, 9 div), 34 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void close_loops(const Model<Real>& model, State<Real>& state) noexcept;
 
@@ -263,14 +263,14 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
 
 /// Multipliers lambda of M zdot = k_bar - q_bar - G^T lambda over all coordinates of the tree; the force of the
 /// constraints is -G^T lambda. N; N m for rows without a length.
-/// 907 operations (505 mul, 395 add and sub, 7 div), 14 sin and cos.
+/// 904 operations (502 mul, 395 add and sub, 7 div), 14 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void constraint_forces(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&lambda)[4]) noexcept;
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 5474 operations. For inputs sampled at the stages include parallel_robot_kernels.hpp and pass a function
+/// 5460 operations. For inputs sampled at the stages include parallel_robot_kernels.hpp and pass a function
 /// of the state instead of `input`.
 template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;

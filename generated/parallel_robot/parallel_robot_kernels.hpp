@@ -304,20 +304,18 @@ void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[7]
   const Real r2_x = c1 * Real(0.19485571585149872) + s1 * Real(0.11249999999999999);
   const Real s4 = c3 * t33 + s3 * t34;
   const Real c4 = s3 * t33 - c3 * t34;
-  const Real r4_x = c3 * Real(0.19485571585149872) + s3 * Real(0.11249999999999999);
   const Real pin2ax_x = c2 * Real(0.13856406460551018) + s2 * Real(1.0546217409559561e-17);
   const Real pin2ax2_x = r2_x + pin2ax_x;
   const Real pin2ax1_x = r1_x - pin2ax2_x;
   const Real pin2bx_x = c4 * Real(0.19485571585149872) - s4 * Real(0.11249999999999999);
-  const Real pin2bx4_x = r4_x - pin2bx_x;
+  const Real pin2bx4_x = pin2bx_x - (c3 * Real(0.19485571585149872) + s3 * Real(0.11249999999999999));
   const Real r1_y = s0 * Real(0.19485571585149872) + c0 * Real(0.11249999999999999);
   const Real r2_y = s1 * Real(0.19485571585149872) - c1 * Real(0.11249999999999999);
-  const Real r4_y = s3 * Real(0.19485571585149872) - c3 * Real(0.11249999999999999);
   const Real pin2ax_y = s2 * Real(0.13856406460551018) - c2 * Real(1.0546217409559561e-17);
   const Real pin2ax2_y = r2_y - pin2ax_y;
   const Real pin2ax1_y = r1_y + pin2ax2_y;
   const Real pin2bx_y = s4 * Real(0.19485571585149872) + c4 * Real(0.11249999999999999);
-  const Real pin2bx4_y = r4_y + pin2bx_y;
+  const Real pin2bx4_y = pin2bx_y + (s3 * Real(0.19485571585149872) - c3 * Real(0.11249999999999999));
   Real t79, t80;
   detail::sine_cosine(state.y[6], t79, t80);
   const Real s6 = c5 * t79 + s5 * t80;
@@ -334,95 +332,96 @@ void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[7]
   const Real pin3ax1_y = r1_y + pin3ax2_y;
   const Real pin3bx_y = c6 * Real(0.225);
   const Real pin3bx6_y = r6_y - pin3bx_y;
-  const Real t114 = Real(1.0) / (pin2ax2_y * pin2ax2_y + pin2ax2_x * pin2ax2_x + pin3ax2_y * pin3ax2_y +
-      pin3ax2_x * pin3ax2_x);
+  const Real t114 = Real(1.0) / (pin2ax2_y * pin2ax2_y + pin2ax2_x * pin2ax2_x + (pin3ax2_y * pin3ax2_y +
+      pin3ax2_x * pin3ax2_x));
   const Real t118 = t114 * Real(0.031425) - Real(0.5);
   const Real t120 = pin2ax_y - pin2ax2_y * t118;
   const Real t122 = pin2ax_x + pin2ax2_x * t118;
   const Real t124 = pin3ax_y - pin3ax2_y * t118;
   const Real t126 = pin3ax_x + pin3ax2_x * t118;
-  const Real t134 = Real(1.0) / (t120 * t120 + t122 * t122 + t124 * t124 + t126 * t126);
+  const Real t134 = Real(1.0) / (t120 * t120 + t122 * t122 + (t124 * t124 + t126 * t126));
   const Real t138 = t114 * (pin2ax2_y * pin2bx_y + pin2ax2_x * pin2bx_x);
   const Real t140 = pin2bx_y - pin2ax2_y * t138;
   const Real t142 = pin2bx_x - pin2ax2_x * t138;
   const Real t143 = pin3ax2_y * t138;
   const Real t144 = pin3ax2_x * t138;
-  const Real t152 = t134 * (t120 * t140 - t122 * t142 - t124 * t143 + t126 * t144);
+  const Real t152 = t134 * (t120 * t140 - t122 * t142 - (t124 * t143 - t126 * t144));
   const Real t154 = t140 - t120 * t152;
   const Real t156 = t142 + t122 * t152;
   const Real t158 = t143 + t124 * t152;
   const Real t160 = t144 - t126 * t152;
-  const Real t168 = Real(1.0) / (t154 * t154 + t156 * t156 + t158 * t158 + t160 * t160);
+  const Real t168 = Real(1.0) / (t154 * t154 + t156 * t156 + (t158 * t158 + t160 * t160));
   const Real t172 = t114 * (pin3ax2_y * pin3bx_y - pin3ax2_x * pin3bx_x);
   const Real t173 = pin2ax2_y * t172;
   const Real t174 = pin2ax2_x * t172;
   const Real t176 = pin3bx_y - pin3ax2_y * t172;
   const Real t178 = pin3bx_x + pin3ax2_x * t172;
-  const Real t186 = t134 * (t120 * t173 - t122 * t174 - t124 * t176 - t126 * t178);
+  const Real t186 = t134 * (t120 * t173 - t122 * t174 - (t124 * t176 + t126 * t178));
   const Real t188 = t173 - t120 * t186;
   const Real t190 = t174 + t122 * t186;
   const Real t192 = t176 + t124 * t186;
   const Real t194 = t178 + t126 * t186;
-  const Real t202 = t168 * (t154 * t188 + t156 * t190 + t158 * t192 - t160 * t194);
+  const Real t202 = t168 * (t154 * t188 + t156 * t190 + (t158 * t192 - t160 * t194));
   const Real t204 = t188 - t154 * t202;
   const Real t206 = t190 - t156 * t202;
   const Real t208 = t192 - t158 * t202;
   const Real t210 = t194 + t160 * t202;
-  const Real t218 = Real(1.0) / (t204 * t204 + t206 * t206 + t208 * t208 + t210 * t210);
-  const Real t226 = t114 * (pin2ax2_y * pin2ax1_y - pin2ax2_x * pin2ax1_x + pin3ax2_y * pin3ax1_y - pin3ax2_x
-      * pin3ax1_x);
+  const Real t218 = Real(1.0) / (t204 * t204 + t206 * t206 + (t208 * t208 + t210 * t210));
+  const Real t226 = t114 * (pin2ax2_y * pin2ax1_y - pin2ax2_x * pin2ax1_x + (pin3ax2_y * pin3ax1_y - pin3ax2_x
+      * pin3ax1_x));
   const Real t228 = pin2ax1_y - pin2ax2_y * t226;
   const Real t230 = pin2ax1_x + pin2ax2_x * t226;
   const Real t232 = pin3ax1_y - pin3ax2_y * t226;
   const Real t234 = pin3ax1_x + pin3ax2_x * t226;
-  const Real t242 = t134 * (t120 * t228 + t122 * t230 + t124 * t232 + t126 * t234);
+  const Real t242 = t134 * (t120 * t228 + t122 * t230 + (t124 * t232 + t126 * t234));
   const Real t244 = t228 - t120 * t242;
   const Real t246 = t230 - t122 * t242;
   const Real t248 = t232 - t124 * t242;
   const Real t250 = t234 - t126 * t242;
-  const Real t258 = t168 * (t154 * t244 - t156 * t246 - t158 * t248 + t160 * t250);
-  const Real t274 = t218 * (t204 * (t244 - t154 * t258) - t206 * (t246 + t156 * t258) - t208 * (t248 + t158 *
-      t258) - t210 * (t250 - t160 * t258));
-  const Real t280 = t258 - t202 * t274;
-  const Real t284 = t242 - t186 * t274 - t152 * t280;
-  const Real t295 = t114 * (pin2ax2_y * pin2bx4_y - pin2ax2_x * pin2bx4_x);
+  const Real t258 = t168 * (t154 * t244 - t156 * t246 - (t158 * t248 - t160 * t250));
+  const Real t274 = t218 * (t204 * (t244 - t154 * t258) - t206 * (t246 + t156 * t258) - (t208 * (t248 + t158 *
+      t258) + t210 * (t250 - t160 * t258)));
+  const Real t278 = t258 - t202 * t274;
+  const Real t282 = t152 * t278 - (t242 - t186 * t274);
+  const Real t295 = t114 * (pin2ax2_y * pin2bx4_y + pin2ax2_x * pin2bx4_x);
   const Real t297 = pin2bx4_y - pin2ax2_y * t295;
-  const Real t299 = pin2bx4_x + pin2ax2_x * t295;
+  const Real t299 = pin2bx4_x - pin2ax2_x * t295;
   const Real t300 = pin3ax2_y * t295;
   const Real t301 = pin3ax2_x * t295;
-  const Real t309 = t134 * (t120 * t297 + t122 * t299 - t124 * t300 + t126 * t301);
+  const Real t309 = t134 * (t120 * t297 - t122 * t299 - (t124 * t300 - t126 * t301));
   const Real t311 = t297 - t120 * t309;
-  const Real t313 = t299 - t122 * t309;
+  const Real t313 = t299 + t122 * t309;
   const Real t315 = t300 + t124 * t309;
   const Real t317 = t301 - t126 * t309;
-  const Real t325 = t168 * (t154 * t311 - t156 * t313 + t158 * t315 + t160 * t317);
-  const Real t341 = t218 * (t204 * (t311 - t154 * t325) - t206 * (t313 + t156 * t325) + t208 * (t315 - t158 *
-      t325) - t210 * (t317 - t160 * t325));
-  const Real t347 = t325 - t202 * t341;
-  const Real t351 = t309 - t186 * t341 - t152 * t347;
-  const Real t366 = t114 * (pin3ax2_y * pin3bx6_y + pin3ax2_x * pin3bx6_x);
-  const Real t367 = pin2ax2_y * t366;
-  const Real t368 = pin2ax2_x * t366;
-  const Real t370 = pin3bx6_y - pin3ax2_y * t366;
-  const Real t372 = pin3bx6_x - pin3ax2_x * t366;
-  const Real t380 = t134 * (t120 * t367 - t122 * t368 - t124 * t370 + t126 * t372);
-  const Real t382 = t367 - t120 * t380;
-  const Real t384 = t368 + t122 * t380;
-  const Real t386 = t370 + t124 * t380;
-  const Real t388 = t372 - t126 * t380;
-  const Real t396 = t168 * (t154 * t382 + t156 * t384 + t158 * t386 + t160 * t388);
-  const Real t412 = t218 * (t204 * (t382 - t154 * t396) + t206 * (t384 - t156 * t396) + t208 * (t386 - t158 *
-      t396) - t210 * (t388 - t160 * t396));
-  const Real t418 = t396 - t202 * t412;
-  const Real t422 = t380 - t186 * t412 - t152 * t418;
+  const Real t325 = t168 * (t154 * t311 + t156 * t313 + (t158 * t315 + t160 * t317));
+  const Real t341 = t218 * (t204 * (t311 - t154 * t325) + t206 * (t313 - t156 * t325) + (t208 * (t315 - t158 *
+      t325) - t210 * (t317 - t160 * t325)));
+  const Real t345 = t325 - t202 * t341;
+  const Real t349 = t152 * t345 - (t309 - t186 * t341);
+  const Real t362 = t114 * (pin3ax2_y * pin3bx6_y + pin3ax2_x * pin3bx6_x);
+  const Real t363 = pin2ax2_y * t362;
+  const Real t364 = pin2ax2_x * t362;
+  const Real t366 = pin3bx6_y - pin3ax2_y * t362;
+  const Real t368 = pin3bx6_x - pin3ax2_x * t362;
+  const Real t376 = t134 * (t120 * t363 - t122 * t364 - (t124 * t366 - t126 * t368));
+  const Real t378 = t363 - t120 * t376;
+  const Real t380 = t364 + t122 * t376;
+  const Real t382 = t366 + t124 * t376;
+  const Real t384 = t368 - t126 * t376;
+  const Real t392 = t168 * (t154 * t378 + t156 * t380 + (t158 * t382 + t160 * t384));
+  const Real t408 = t218 * (t204 * (t378 - t154 * t392) + t206 * (t380 - t156 * t392) + (t208 * (t382 - t158 *
+      t392) - t210 * (t384 - t160 * t392)));
+  const Real t412 = t392 - t202 * t408;
+  const Real t416 = t152 * t412 - (t376 - t186 * t408);
   ydot[0] = state.z[0];
-  ydot[1] = -((t226 + t172 * t274 - t138 * t280 - t118 * t284) * state.z[0] + (t295 + t172 * t341 - t138 *
-      t347 - t118 * t351) * state.z[1] + (t366 - t172 * t412 + t138 * t418 + t118 * t422) * state.z[2]);
-  ydot[2] = t284 * state.z[0] + t351 * state.z[1] - t422 * state.z[2];
+  ydot[1] = (t118 * t416 - (t138 * t412 + (t362 - t172 * t408))) * state.z[2] - ((t118 * t282 - (t138 * t278 -
+      (t226 + t172 * t274))) * state.z[0] + (t118 * t349 - (t138 * t345 - (t295 + t172 * t341))) *
+      state.z[1]);
+  ydot[2] = t416 * state.z[2] - (t282 * state.z[0] + t349 * state.z[1]);
   ydot[3] = state.z[1];
-  ydot[4] = -(t280 * state.z[0] + t347 * state.z[1] - t418 * state.z[2]);
+  ydot[4] = t412 * state.z[2] - (t278 * state.z[0] + t345 * state.z[1]);
   ydot[5] = state.z[2];
-  ydot[6] = -(t274 * state.z[0] + t341 * state.z[1] - t412 * state.z[2]);
+  ydot[6] = t408 * state.z[2] - (t274 * state.z[0] + t341 * state.z[1]);
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -469,90 +468,90 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[3
   const Real pin3ax1_y = r1_y + pin3ax2_y;
   const Real pin3bx_y = c6 * Real(0.225);
   const Real pin3bx6_y = r6_y - pin3bx_y;
-  const Real t114 = Real(1.0) / (pin3ax2_x * pin3ax2_x + (pin3ax2_y * pin3ax2_y + (pin2ax2_y * pin2ax2_y +
-      pin2ax2_x * pin2ax2_x)));
+  const Real t114 = Real(1.0) / (pin2ax2_y * pin2ax2_y + pin2ax2_x * pin2ax2_x + (pin3ax2_y * pin3ax2_y +
+      pin3ax2_x * pin3ax2_x));
   const Real t118 = t114 * Real(0.031425) - Real(0.5);
   const Real t120 = pin2ax_y - pin2ax2_y * t118;
   const Real t122 = pin2ax_x + pin2ax2_x * t118;
   const Real t124 = pin3ax_y - pin3ax2_y * t118;
   const Real t126 = pin3ax_x + pin3ax2_x * t118;
-  const Real t134 = Real(1.0) / (t126 * t126 + (t124 * t124 + (t120 * t120 + t122 * t122)));
+  const Real t134 = Real(1.0) / (t120 * t120 + t122 * t122 + (t124 * t124 + t126 * t126));
   const Real t138 = t114 * (pin2ax2_y * pin2bx_y + pin2ax2_x * pin2bx_x);
   const Real t140 = pin2bx_y - pin2ax2_y * t138;
   const Real t142 = pin2bx_x - pin2ax2_x * t138;
   const Real t143 = pin3ax2_y * t138;
   const Real t144 = pin3ax2_x * t138;
-  const Real t152 = t134 * (t126 * t144 - (t124 * t143 - (t120 * t140 - t122 * t142)));
+  const Real t152 = t134 * (t120 * t140 - t122 * t142 - (t124 * t143 - t126 * t144));
   const Real t154 = t140 - t120 * t152;
   const Real t156 = t142 + t122 * t152;
   const Real t158 = t143 + t124 * t152;
   const Real t160 = t144 - t126 * t152;
-  const Real t168 = Real(1.0) / (t160 * t160 + (t158 * t158 + (t154 * t154 + t156 * t156)));
+  const Real t168 = Real(1.0) / (t154 * t154 + t156 * t156 + (t158 * t158 + t160 * t160));
   const Real t172 = t114 * (pin3ax2_y * pin3bx_y - pin3ax2_x * pin3bx_x);
   const Real t173 = pin2ax2_y * t172;
   const Real t174 = pin2ax2_x * t172;
   const Real t176 = pin3bx_y - pin3ax2_y * t172;
   const Real t178 = pin3bx_x + pin3ax2_x * t172;
-  const Real t186 = t134 * (t126 * t178 + (t124 * t176 - (t120 * t173 - t122 * t174)));
-  const Real t188 = t173 + t120 * t186;
-  const Real t190 = t174 - t122 * t186;
-  const Real t192 = t176 - t124 * t186;
-  const Real t194 = t178 - t126 * t186;
-  const Real t202 = t168 * (t160 * t194 - (t158 * t192 + (t154 * t188 + t156 * t190)));
-  const Real t204 = t188 + t154 * t202;
-  const Real t206 = t190 + t156 * t202;
-  const Real t208 = t192 + t158 * t202;
-  const Real t210 = t194 - t160 * t202;
-  const Real t218 = Real(1.0) / (t210 * t210 + (t208 * t208 + (t204 * t204 + t206 * t206)));
-  const Real t226 = t114 * (pin3ax2_x * pin3ax1_x - (pin3ax2_y * pin3ax1_y + (pin2ax2_y * pin2ax1_y -
-      pin2ax2_x * pin2ax1_x)));
-  const Real t228 = pin2ax1_y + pin2ax2_y * t226;
-  const Real t230 = pin2ax1_x - pin2ax2_x * t226;
-  const Real t232 = pin3ax1_y + pin3ax2_y * t226;
-  const Real t234 = pin3ax1_x - pin3ax2_x * t226;
-  const Real t242 = t134 * (t126 * t234 + (t124 * t232 + (t120 * t228 + t122 * t230)));
+  const Real t186 = t134 * (t120 * t173 - t122 * t174 - (t124 * t176 + t126 * t178));
+  const Real t188 = t173 - t120 * t186;
+  const Real t190 = t174 + t122 * t186;
+  const Real t192 = t176 + t124 * t186;
+  const Real t194 = t178 + t126 * t186;
+  const Real t202 = t168 * (t154 * t188 + t156 * t190 + (t158 * t192 - t160 * t194));
+  const Real t204 = t188 - t154 * t202;
+  const Real t206 = t190 - t156 * t202;
+  const Real t208 = t192 - t158 * t202;
+  const Real t210 = t194 + t160 * t202;
+  const Real t218 = Real(1.0) / (t204 * t204 + t206 * t206 + (t208 * t208 + t210 * t210));
+  const Real t226 = t114 * (pin2ax2_y * pin2ax1_y - pin2ax2_x * pin2ax1_x + (pin3ax2_y * pin3ax1_y - pin3ax2_x
+      * pin3ax1_x));
+  const Real t228 = pin2ax1_y - pin2ax2_y * t226;
+  const Real t230 = pin2ax1_x + pin2ax2_x * t226;
+  const Real t232 = pin3ax1_y - pin3ax2_y * t226;
+  const Real t234 = pin3ax1_x + pin3ax2_x * t226;
+  const Real t242 = t134 * (t120 * t228 + t122 * t230 + (t124 * t232 + t126 * t234));
   const Real t244 = t228 - t120 * t242;
   const Real t246 = t230 - t122 * t242;
   const Real t248 = t232 - t124 * t242;
   const Real t250 = t234 - t126 * t242;
-  const Real t258 = t168 * (t160 * t250 - (t158 * t248 - (t154 * t244 - t156 * t246)));
-  const Real t274 = t218 * (t210 * (t250 - t160 * t258) + (t208 * (t248 + t158 * t258) - (t204 * (t244 - t154
-      * t258) - t206 * (t246 + t156 * t258))));
+  const Real t258 = t168 * (t154 * t244 - t156 * t246 - (t158 * t248 - t160 * t250));
+  const Real t274 = t218 * (t204 * (t244 - t154 * t258) - t206 * (t246 + t156 * t258) - (t208 * (t248 + t158 *
+      t258) + t210 * (t250 - t160 * t258)));
   const Real t278 = t258 - t202 * t274;
   const Real t282 = t152 * t278 - (t242 - t186 * t274);
-  const Real t286 = t118 * t282 - (t138 * t278 + (t226 + t172 * t274));
+  const Real t286 = t118 * t282 - (t138 * t278 - (t226 + t172 * t274));
   const Real t290 = t114 * (pin2ax2_y * pin2bx4_y - pin2ax2_x * pin2bx4_x);
   const Real t292 = pin2bx4_y - pin2ax2_y * t290;
   const Real t294 = pin2bx4_x + pin2ax2_x * t290;
   const Real t295 = pin3ax2_y * t290;
   const Real t296 = pin3ax2_x * t290;
-  const Real t304 = t134 * (t126 * t296 - (t124 * t295 - (t120 * t292 + t122 * t294)));
+  const Real t304 = t134 * (t120 * t292 + t122 * t294 - (t124 * t295 - t126 * t296));
   const Real t306 = t292 - t120 * t304;
   const Real t308 = t294 - t122 * t304;
   const Real t310 = t295 + t124 * t304;
   const Real t312 = t296 - t126 * t304;
-  const Real t320 = t168 * (t160 * t312 + (t158 * t310 + (t154 * t306 - t156 * t308)));
-  const Real t336 = t218 * (t210 * (t312 - t160 * t320) - (t208 * (t310 - t158 * t320) + (t204 * (t306 - t154
-      * t320) - t206 * (t308 + t156 * t320))));
+  const Real t320 = t168 * (t154 * t306 - t156 * t308 + (t158 * t310 + t160 * t312));
+  const Real t336 = t218 * (t204 * (t306 - t154 * t320) - t206 * (t308 + t156 * t320) + (t208 * (t310 - t158 *
+      t320) - t210 * (t312 - t160 * t320)));
   const Real t340 = t320 - t202 * t336;
   const Real t344 = t152 * t340 - (t304 - t186 * t336);
-  const Real t348 = t118 * t344 - (t138 * t340 - (t290 - t172 * t336));
+  const Real t348 = t118 * t344 - (t138 * t340 - (t290 + t172 * t336));
   const Real t352 = t114 * (pin3ax2_y * pin3bx6_y + pin3ax2_x * pin3bx6_x);
   const Real t353 = pin2ax2_y * t352;
   const Real t354 = pin2ax2_x * t352;
   const Real t356 = pin3bx6_y - pin3ax2_y * t352;
   const Real t358 = pin3bx6_x - pin3ax2_x * t352;
-  const Real t366 = t134 * (t126 * t358 - (t124 * t356 - (t120 * t353 - t122 * t354)));
+  const Real t366 = t134 * (t120 * t353 - t122 * t354 - (t124 * t356 - t126 * t358));
   const Real t368 = t353 - t120 * t366;
   const Real t370 = t354 + t122 * t366;
   const Real t372 = t356 + t124 * t366;
   const Real t374 = t358 - t126 * t366;
-  const Real t382 = t168 * (t160 * t374 + (t158 * t372 + (t154 * t368 + t156 * t370)));
-  const Real t398 = t218 * (t210 * (t374 - t160 * t382) - (t208 * (t372 - t158 * t382) + (t204 * (t368 - t154
-      * t382) + t206 * (t370 - t156 * t382))));
+  const Real t382 = t168 * (t154 * t368 + t156 * t370 + (t158 * t372 + t160 * t374));
+  const Real t398 = t218 * (t204 * (t368 - t154 * t382) + t206 * (t370 - t156 * t382) + (t208 * (t372 - t158 *
+      t382) - t210 * (t374 - t160 * t382)));
   const Real t402 = t382 - t202 * t398;
   const Real t406 = t152 * t402 - (t366 - t186 * t398);
-  const Real t410 = t118 * t406 - (t138 * t402 + (t352 + t172 * t398));
+  const Real t410 = t118 * t406 - (t138 * t402 + (t352 - t172 * t398));
   const Real D6 = t80 * Real(0.00759375);
   const Real E6 = D6 + Real(0.0050625);
   const Real h4b_x = s4 * Real(0.016874999999999998) - c4 * Real(0.029228357377724806);
@@ -563,28 +562,29 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[3
   const Real h2b_y = s2 * model.h_x + c2 * model.h_y;
   const Real D2 = r2_x * h2b_x - r2_y * h2b_y;
   const Real E2 = D2 + model.S2b_zz;
-  const Real h1_x = s1 * model.platform_h_y + (h2b_x + c1 * model.platform_h_x);
-  const Real h1_y = c1 * model.platform_h_y + (h2b_y - s1 * model.platform_h_x);
-  const Real J1 = D2 + E2 + model.c5;
+  const Real h1_x = h2b_x + (c1 * model.platform_h_x + s1 * model.platform_h_y);
+  const Real h1_y = h2b_y - (s1 * model.platform_h_x - c1 * model.platform_h_y);
+  const Real J1 = E2 + (D2 + model.c5);
   const Real D1 = r1_x * h1_x + r1_y * h1_y;
   const Real E1 = J1 - D1;
-  const Real p_2_1n_z = r1_y * h2b_y - (E2 - r1_x * h2b_x);
-  const Real t464 = t282 * E2 - (E1 - t286 * J1);
-  const Real t468 = t282 * model.S2b_zz + (p_2_1n_z + t286 * E2);
+  const Real p_2_1n_z = E2 - (r1_x * h2b_x + r1_y * h2b_y);
+  const Real t464 = t286 * J1 - (E1 - t282 * E2);
+  const Real t468 = t286 * E2 - (p_2_1n_z - t282 * model.S2b_zz);
   const Real t470 = t278 * Real(0.0050625);
   const Real t472 = t274 * Real(0.0050625);
   const Real t504 = t348 * J1 + t344 * E2;
   const Real t507 = t348 * E2 + t344 * model.S2b_zz;
   const Real t509 = E4 - t340 * Real(0.0050625);
   const Real t511 = t336 * Real(0.0050625);
-  M[0][0] = E1 - (D1 - (t278 * t470 + (t274 * t472 + (t282 * (p_2_1n_z + t468) - t286 * (E1 - t464))))) +
-      model.c6;
-  M[0][1] = M[1][0] = t336 * t472 + (t340 * t470 + (t344 * t468 - (t278 * E4 - t348 * t464)));
-  M[0][2] = M[2][0] = -(t398 * t472 + (t402 * t470 + (t406 * t468 - (t274 * E6 - t410 * t464))));
-  M[1][1] = E4 + (D4 + (t348 * t504 + (t344 * t507 + (t336 * t511 - t340 * (E4 + t509))))) + Real(0.0239375);
-  M[1][2] = M[2][1] = -(t398 * t511 - (t402 * t509 - (t406 * t507 - (t336 * E6 - t410 * t504))));
-  M[2][2] = E6 + (D6 + (t410 * (t410 * J1 + t406 * E2) + (t406 * (t410 * E2 + t406 * model.S2b_zz) +
-      (Real(0.0050625) * (t402 * t402) + (Real(0.0239375) - t398 * (E6 + (E6 - t398 * Real(0.0050625))))))));
+  M[0][0] = -(t286 * (E1 - t464) + (t282 * (p_2_1n_z - t468) - (t278 * t470 + (t274 * t472 + (E1 - (D1 -
+      model.c6))))));
+  M[0][1] = M[1][0] = t344 * t468 + (t348 * t464 + (t340 * t470 - (t278 * E4 - t336 * t472)));
+  M[0][2] = M[2][0] = -(t406 * t468 + (t410 * t464 + (t402 * t470 + (t274 * E6 + t398 * t472))));
+  M[1][1] = t344 * t507 + (t348 * t504 - (t340 * (E4 + t509) - (t336 * t511 + (E4 + (D4 +
+      Real(0.0239375))))));
+  M[1][2] = M[2][1] = -(t406 * t507 + (t410 * t504 - (t402 * t509 - (t336 * E6 + t398 * t511))));
+  M[2][2] = t406 * (t410 * E2 + t406 * model.S2b_zz) + (t410 * (t410 * J1 + t406 * E2) + (t402 * (t402 *
+      Real(0.0050625)) + (t398 * (t398 * Real(0.0050625) + (E6 + E6)) + (E6 + (D6 + Real(0.0239375))))));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -631,168 +631,166 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[3]) noe
   const Real pin3ax1_y = r1_y + pin3ax2_y;
   const Real pin3bx_y = c6 * Real(0.225);
   const Real pin3bx6_y = r6_y - pin3bx_y;
-  const Real t114 = Real(1.0) / (pin2ax2_x * pin2ax2_x + (pin2ax2_y * pin2ax2_y + (pin3ax2_y * pin3ax2_y +
-      pin3ax2_x * pin3ax2_x)));
+  const Real t114 = Real(1.0) / (pin2ax2_y * pin2ax2_y + pin2ax2_x * pin2ax2_x + (pin3ax2_y * pin3ax2_y +
+      pin3ax2_x * pin3ax2_x));
   const Real t118 = t114 * Real(0.031425) - Real(0.5);
   const Real t120 = pin2ax_y - pin2ax2_y * t118;
   const Real t122 = pin2ax_x + pin2ax2_x * t118;
   const Real t124 = pin3ax_y - pin3ax2_y * t118;
   const Real t126 = pin3ax_x + pin3ax2_x * t118;
-  const Real t134 = Real(1.0) / (t122 * t122 + (t120 * t120 + (t124 * t124 + t126 * t126)));
+  const Real t134 = Real(1.0) / (t120 * t120 + t122 * t122 + (t124 * t124 + t126 * t126));
   const Real t138 = t114 * (pin2ax2_y * pin2bx_y + pin2ax2_x * pin2bx_x);
   const Real t140 = pin2bx_y - pin2ax2_y * t138;
   const Real t142 = pin2bx_x - pin2ax2_x * t138;
   const Real t143 = pin3ax2_y * t138;
   const Real t144 = pin3ax2_x * t138;
-  const Real t152 = t134 * (t122 * t142 - (t120 * t140 - (t124 * t143 - t126 * t144)));
-  const Real t154 = t140 + t120 * t152;
-  const Real t156 = t142 - t122 * t152;
-  const Real t158 = t143 - t124 * t152;
-  const Real t160 = t144 + t126 * t152;
-  const Real t168 = Real(1.0) / (t156 * t156 + (t154 * t154 + (t158 * t158 + t160 * t160)));
+  const Real t152 = t134 * (t120 * t140 - t122 * t142 - (t124 * t143 - t126 * t144));
+  const Real t154 = t140 - t120 * t152;
+  const Real t156 = t142 + t122 * t152;
+  const Real t158 = t143 + t124 * t152;
+  const Real t160 = t144 - t126 * t152;
+  const Real t168 = Real(1.0) / (t154 * t154 + t156 * t156 + (t158 * t158 + t160 * t160));
   const Real t172 = t114 * (pin3ax2_y * pin3bx_y - pin3ax2_x * pin3bx_x);
   const Real t173 = pin2ax2_y * t172;
   const Real t174 = pin2ax2_x * t172;
   const Real t176 = pin3bx_y - pin3ax2_y * t172;
   const Real t178 = pin3bx_x + pin3ax2_x * t172;
-  const Real t186 = t134 * (t122 * t174 - (t120 * t173 - (t124 * t176 + t126 * t178)));
-  const Real t188 = t173 + t120 * t186;
-  const Real t190 = t174 - t122 * t186;
-  const Real t192 = t176 - t124 * t186;
-  const Real t194 = t178 - t126 * t186;
-  const Real t202 = t168 * (t156 * t190 + (t154 * t188 + (t158 * t192 - t160 * t194)));
+  const Real t186 = t134 * (t120 * t173 - t122 * t174 - (t124 * t176 + t126 * t178));
+  const Real t188 = t173 - t120 * t186;
+  const Real t190 = t174 + t122 * t186;
+  const Real t192 = t176 + t124 * t186;
+  const Real t194 = t178 + t126 * t186;
+  const Real t202 = t168 * (t154 * t188 + t156 * t190 + (t158 * t192 - t160 * t194));
   const Real t204 = t188 - t154 * t202;
   const Real t206 = t190 - t156 * t202;
   const Real t208 = t192 - t158 * t202;
   const Real t210 = t194 + t160 * t202;
-  const Real t218 = Real(1.0) / (t206 * t206 + (t204 * t204 + (t208 * t208 + t210 * t210)));
-  const Real t226 = t114 * (pin2ax2_x * pin2ax1_x - (pin2ax2_y * pin2ax1_y + (pin3ax2_y * pin3ax1_y -
-      pin3ax2_x * pin3ax1_x)));
-  const Real t228 = pin2ax1_y + pin2ax2_y * t226;
-  const Real t230 = pin2ax1_x - pin2ax2_x * t226;
-  const Real t232 = pin3ax1_y + pin3ax2_y * t226;
-  const Real t234 = pin3ax1_x - pin3ax2_x * t226;
-  const Real t242 = t134 * (t122 * t230 + (t120 * t228 + (t124 * t232 + t126 * t234)));
+  const Real t218 = Real(1.0) / (t204 * t204 + t206 * t206 + (t208 * t208 + t210 * t210));
+  const Real t226 = t114 * (pin2ax2_y * pin2ax1_y - pin2ax2_x * pin2ax1_x + (pin3ax2_y * pin3ax1_y - pin3ax2_x
+      * pin3ax1_x));
+  const Real t228 = pin2ax1_y - pin2ax2_y * t226;
+  const Real t230 = pin2ax1_x + pin2ax2_x * t226;
+  const Real t232 = pin3ax1_y - pin3ax2_y * t226;
+  const Real t234 = pin3ax1_x + pin3ax2_x * t226;
+  const Real t242 = t134 * (t120 * t228 + t122 * t230 + (t124 * t232 + t126 * t234));
   const Real t244 = t228 - t120 * t242;
   const Real t246 = t230 - t122 * t242;
   const Real t248 = t232 - t124 * t242;
   const Real t250 = t234 - t126 * t242;
-  const Real t258 = t168 * (t156 * t246 - (t154 * t244 - (t158 * t248 - t160 * t250)));
-  const Real t274 = t218 * (t206 * (t246 - t156 * t258) - (t204 * (t244 + t154 * t258) - (t208 * (t248 - t158
-      * t258) + t210 * (t250 + t160 * t258))));
+  const Real t258 = t168 * (t154 * t244 - t156 * t246 - (t158 * t248 - t160 * t250));
+  const Real t274 = t218 * (t204 * (t244 - t154 * t258) - t206 * (t246 + t156 * t258) - (t208 * (t248 + t158 *
+      t258) + t210 * (t250 - t160 * t258)));
   const Real t278 = t258 - t202 * t274;
-  const Real t282 = t186 * t274 - (t242 - t152 * t278);
-  const Real t286 = t172 * t274 + (t226 - (t138 * t278 + t118 * t282));
+  const Real t282 = t152 * t278 - (t242 - t186 * t274);
+  const Real t286 = t118 * t282 - (t138 * t278 - (t226 + t172 * t274));
   const Real t295 = t114 * (pin2ax2_y * pin2bx4_y - pin2ax2_x * pin2bx4_x);
   const Real t297 = pin2bx4_y - pin2ax2_y * t295;
   const Real t299 = pin2bx4_x + pin2ax2_x * t295;
   const Real t300 = pin3ax2_y * t295;
   const Real t301 = pin3ax2_x * t295;
-  const Real t309 = t134 * (t122 * t299 + (t120 * t297 - (t124 * t300 - t126 * t301)));
+  const Real t309 = t134 * (t120 * t297 + t122 * t299 - (t124 * t300 - t126 * t301));
   const Real t311 = t297 - t120 * t309;
   const Real t313 = t299 - t122 * t309;
   const Real t315 = t300 + t124 * t309;
   const Real t317 = t301 - t126 * t309;
-  const Real t325 = t168 * (t156 * t313 - (t154 * t311 + (t158 * t315 + t160 * t317)));
-  const Real t341 = t218 * (t206 * (t313 - t156 * t325) - (t204 * (t311 + t154 * t325) + (t208 * (t315 + t158
-      * t325) - t210 * (t317 + t160 * t325))));
+  const Real t325 = t168 * (t154 * t311 - t156 * t313 + (t158 * t315 + t160 * t317));
+  const Real t341 = t218 * (t204 * (t311 - t154 * t325) - t206 * (t313 + t156 * t325) + (t208 * (t315 - t158 *
+      t325) - t210 * (t317 - t160 * t325)));
   const Real t345 = t325 - t202 * t341;
-  const Real t349 = t186 * t341 - (t309 - t152 * t345);
-  const Real t353 = t172 * t341 - (t295 + (t138 * t345 + t118 * t349));
+  const Real t349 = t152 * t345 - (t309 - t186 * t341);
+  const Real t353 = t118 * t349 - (t138 * t345 - (t295 + t172 * t341));
   const Real t362 = t114 * (pin3ax2_y * pin3bx6_y + pin3ax2_x * pin3bx6_x);
   const Real t363 = pin2ax2_y * t362;
   const Real t364 = pin2ax2_x * t362;
   const Real t366 = pin3bx6_y - pin3ax2_y * t362;
   const Real t368 = pin3bx6_x - pin3ax2_x * t362;
-  const Real t376 = t134 * (t122 * t364 - (t120 * t363 - (t124 * t366 - t126 * t368)));
-  const Real t378 = t363 + t120 * t376;
-  const Real t380 = t364 - t122 * t376;
-  const Real t382 = t366 - t124 * t376;
-  const Real t384 = t368 + t126 * t376;
-  const Real t392 = t168 * (t156 * t380 + (t154 * t378 + (t158 * t382 + t160 * t384)));
-  const Real t408 = t218 * (t206 * (t380 - t156 * t392) + (t204 * (t378 - t154 * t392) + (t208 * (t382 - t158
-      * t392) - t210 * (t384 - t160 * t392))));
+  const Real t376 = t134 * (t120 * t363 - t122 * t364 - (t124 * t366 - t126 * t368));
+  const Real t378 = t363 - t120 * t376;
+  const Real t380 = t364 + t122 * t376;
+  const Real t382 = t366 + t124 * t376;
+  const Real t384 = t368 - t126 * t376;
+  const Real t392 = t168 * (t154 * t378 + t156 * t380 + (t158 * t382 + t160 * t384));
+  const Real t408 = t218 * (t204 * (t378 - t154 * t392) + t206 * (t380 - t156 * t392) + (t208 * (t382 - t158 *
+      t392) - t210 * (t384 - t160 * t392)));
   const Real t412 = t392 - t202 * t408;
-  const Real t416 = t186 * t408 - (t376 - t152 * t412);
-  const Real t420 = t172 * t408 - (t362 + (t138 * t412 + t118 * t416));
-  const Real t424 = t353 * state.z[1] + (t286 * state.z[0] + t420 * state.z[2]);
-  const Real t427 = t349 * state.z[1] + (t282 * state.z[0] + t416 * state.z[2]);
-  const Real t430 = t345 * state.z[1] + (t278 * state.z[0] + t412 * state.z[2]);
-  const Real t433 = t341 * state.z[1] + (t274 * state.z[0] + t408 * state.z[2]);
-  const Real t434 = Real(0.225) * state.z[2];
-  const Real t437 = state.z[2] * (c5 * t434);
+  const Real t416 = t152 * t412 - (t376 - t186 * t408);
+  const Real t420 = t118 * t416 - (t138 * t412 + (t362 - t172 * t408));
+  const Real t424 = t420 * state.z[2] - (t286 * state.z[0] + t353 * state.z[1]);
+  const Real t427 = t416 * state.z[2] - (t282 * state.z[0] + t349 * state.z[1]);
+  const Real t430 = t412 * state.z[2] - (t278 * state.z[0] + t345 * state.z[1]);
+  const Real t433 = t408 * state.z[2] - (t274 * state.z[0] + t341 * state.z[1]);
+  const Real t435 = state.z[2] * (Real(0.225) * state.z[2]);
+  const Real t436 = c5 * t435;
   const Real w6_z = state.z[2] + t433;
-  const Real t439 = Real(0.225) * w6_z;
+  const Real t438 = Real(0.225) * w6_z;
   const Real w1_z = state.z[0] + t424;
-  const Real w2_z = t427 - w1_z;
-  const Real t445 = state.z[0] * (r1_x * state.z[0]);
-  const Real t449 = t445 - w1_z * (r2_x * w1_z);
-  const Real t450 = t434 * (s5 * state.z[2]);
-  const Real t454 = state.z[0] * (r1_y * state.z[0]);
-  const Real t456 = t454 + w1_z * (r2_y * w1_z);
-  const Real t462 = state.z[1] * (r4_y * state.z[1]);
+  const Real w2_z = t427 + w1_z;
+  const Real t441 = state.z[0] * state.z[0];
+  const Real t442 = r1_x * t441;
+  const Real t445 = t442 - w1_z * (r2_x * w1_z);
+  const Real t446 = s5 * t435;
+  const Real t451 = r1_y * t441;
+  const Real t454 = t451 + w1_z * (r2_y * w1_z);
+  const Real t455 = state.z[1] * state.z[1];
+  const Real t456 = r4_y * t455;
   const Real w4_z = state.z[1] + t430;
-  const Real t470 = t450 - (t449 - (w6_z * (s6 * t439) + w2_z * (pin3ax_x * w2_z)));
-  const Real t474 = w6_z * (c6 * t439) - (t437 + (t456 - w2_z * (pin3ax_y * w2_z)));
-  const Real t476 = state.z[1] * (r4_x * state.z[1]);
-  const Real t481 = w2_z * (pin2ax_x * w2_z) - (t449 + (t476 - w4_z * (pin2bx_x * w4_z)));
-  const Real t485 = t462 + (t456 - (w2_z * (pin2ax_y * w2_z) - w4_z * (pin2bx_y * w4_z)));
-  const Real t493 = t114 * (pin2ax2_x * t485 - (pin2ax2_y * t481 + (pin3ax2_y * t470 + pin3ax2_x * t474)));
-  const Real t495 = t481 + pin2ax2_y * t493;
-  const Real t497 = t485 - pin2ax2_x * t493;
-  const Real t499 = t470 + pin3ax2_y * t493;
-  const Real t501 = t474 + pin3ax2_x * t493;
-  const Real t509 = t134 * (t122 * t497 + (t120 * t495 + (t124 * t499 - t126 * t501)));
-  const Real t511 = t495 - t120 * t509;
-  const Real t513 = t497 - t122 * t509;
-  const Real t515 = t499 - t124 * t509;
-  const Real t517 = t501 + t126 * t509;
-  const Real t525 = t168 * (t156 * t513 - (t154 * t511 - (t158 * t515 + t160 * t517)));
-  const Real t541 = t218 * (t206 * (t513 - t156 * t525) - (t204 * (t511 + t154 * t525) - (t208 * (t515 - t158
-      * t525) - t210 * (t517 - t160 * t525))));
-  const Real t545 = t525 - t202 * t541;
-  const Real t549 = t186 * t541 - (t509 - t152 * t545);
-  const Real t553 = t172 * t541 + (t493 - (t138 * t545 + t118 * t549));
+  const Real t466 = w2_z * (pin3ax_x * w2_z) - (t445 - (t446 + t438 * (s6 * w6_z)));
+  const Real t471 = w2_z * (pin3ax_y * w2_z) - (t454 + (t436 - t438 * (c6 * w6_z)));
+  const Real t472 = r4_x * t455;
+  const Real t477 = w2_z * (pin2ax_x * w2_z) - (t445 + (t472 - w4_z * (pin2bx_x * w4_z)));
+  const Real t482 = w2_z * (pin2ax_y * w2_z) - (t454 + (t456 + w4_z * (pin2bx_y * w4_z)));
+  const Real t490 = t114 * (pin2ax2_y * t477 + pin2ax2_x * t482 + (pin3ax2_y * t466 + pin3ax2_x * t471));
+  const Real t492 = t477 - pin2ax2_y * t490;
+  const Real t494 = t482 - pin2ax2_x * t490;
+  const Real t496 = t466 - pin3ax2_y * t490;
+  const Real t498 = t471 - pin3ax2_x * t490;
+  const Real t506 = t134 * (t120 * t492 - t122 * t494 + (t124 * t496 - t126 * t498));
+  const Real t508 = t492 - t120 * t506;
+  const Real t510 = t494 + t122 * t506;
+  const Real t512 = t496 - t124 * t506;
+  const Real t514 = t498 + t126 * t506;
+  const Real t522 = t168 * (t154 * t508 + t156 * t510 - (t158 * t512 + t160 * t514));
+  const Real t538 = t218 * (t204 * (t508 - t154 * t522) + t206 * (t510 - t156 * t522) - (t208 * (t512 + t158 *
+      t522) - t210 * (t514 + t160 * t522)));
+  const Real t542 = t522 - t202 * t538;
+  const Real t546 = t152 * t542 - (t506 - t186 * t538);
+  const Real t550 = t118 * t546 - (t138 * t542 - (t490 + t172 * t538));
   const Real h6b_x = s6 * Real(0.03375);
   const Real h6b_y = c6 * Real(0.03375);
   const Real h4b_x = s4 * Real(0.016874999999999998) - c4 * Real(0.029228357377724806);
   const Real h4b_y = c4 * Real(0.016874999999999998) + s4 * Real(0.029228357377724806);
   const Real h2b_x = c2 * model.h_x - s2 * model.h_y;
   const Real h2b_y = s2 * model.h_x + c2 * model.h_y;
-  const Real h1_x = c1 * model.platform_h_x + (h2b_x + s1 * model.platform_h_y);
-  const Real h1_y = s1 * model.platform_h_x - (h2b_y + c1 * model.platform_h_y);
+  const Real h1_x = h2b_x + (c1 * model.platform_h_x + s1 * model.platform_h_y);
+  const Real h1_y = h2b_y - (s1 * model.platform_h_x - c1 * model.platform_h_y);
   const Real zw_1 = t424 * (state.z[0] + w1_z);
   const Real kdf1_x = h1_x * zw_1;
   const Real kdf1_y = h1_y * zw_1;
-  const Real zw_2 = t427 * (w1_z - w2_z);
+  const Real zw_2 = t427 * (w1_z + w2_z);
   const Real kdf2_x = h2b_x * zw_2;
   const Real kdf2_y = h2b_y * zw_2;
   const Real zw_4 = t430 * (state.z[1] + w4_z);
-  const Real kdf4_x = h4b_x * zw_4;
-  const Real kdf4_y = h4b_y * zw_4;
   const Real zw_6 = t433 * (state.z[2] + w6_z);
-  const Real kdf6_x = h6b_x * zw_6;
-  const Real kdf6_y = h6b_y * zw_6;
-  const Real kf2c_x = kdf1_x - kdf2_x;
+  const Real kf2c_x = kdf1_x + kdf2_x;
   const Real kf2c_y = kdf1_y + kdf2_y;
   const Real kn2c_z = r2_x * kdf2_y + r2_y * kdf2_x;
   const Real E6 = t80 * Real(0.00759375) + Real(0.0050625);
-  const Real E4 = r4_x * h4b_x + (Real(0.0050625) + r4_y * h4b_y);
+  const Real E4 = r4_y * h4b_y + (Real(0.0050625) + r4_x * h4b_x);
   const Real D2 = r2_x * h2b_x - r2_y * h2b_y;
   const Real E2 = D2 + model.S2b_zz;
   const Real J1 = E2 + (D2 + model.c5);
-  const Real E1 = r1_x * h1_x - (J1 + r1_y * h1_y);
-  const Real p_2_1n_z = r1_x * h2b_x - (E2 - r1_y * h2b_y);
-  const Real t655 = t445 * h1_y + (t454 * h1_x + (kn2c_z - (t553 * J1 - t549 * E2)));
-  const Real t658 = t449 * h2b_y - (t456 * h2b_x - (t553 * E2 - t549 * model.S2b_zz));
-  const Real t660 = t476 * h4b_y - (t462 * h4b_x + t545 * Real(0.0050625));
-  const Real t662 = t450 * h6b_y + (t437 * h6b_x - t541 * Real(0.0050625));
-  k[0] = r1_x * kf2c_y - (kn2c_z - (r1_y * kf2c_x - (t553 * E1 - (t549 * p_2_1n_z - (t286 * t655 + (t282 *
-      t658 + (t278 * t660 + t274 * t662)))))));
-  k[1] = -(r4_y * kdf4_x - (r4_x * kdf4_y + (t545 * E4 - (t353 * t655 + (t349 * t658 + (t345 * t660 + t341 *
-      t662))))));
-  k[2] = r6_y * kdf6_x + (r6_x * kdf6_y + (t541 * E6 - (t420 * t655 + (t416 * t658 + (t412 * t660 + t408 *
-      t662)))));
+  const Real E1 = J1 - (r1_x * h1_x + r1_y * h1_y);
+  const Real p_2_1n_z = E2 - (r1_x * h2b_x + r1_y * h2b_y);
+  const Real t652 = t550 * J1 + (t546 * E2 - (kn2c_z - (t451 * h1_x - t442 * h1_y)));
+  const Real t655 = t550 * E2 + (t546 * model.S2b_zz + (t454 * h2b_x - t445 * h2b_y));
+  const Real t657 = t542 * Real(0.0050625) - (t456 * h4b_x - t472 * h4b_y);
+  const Real t659 = t538 * Real(0.0050625) + (t436 * h6b_x + t446 * h6b_y);
+  k[0] = t282 * t655 + (t286 * t652 - (t550 * E1 - (t278 * t657 - (t546 * p_2_1n_z - (t274 * t659 + (r1_y *
+      kf2c_x + (kn2c_z - r1_x * kf2c_y)))))));
+  k[1] = t349 * t655 + (t353 * t652 + (t345 * t657 + (t341 * t659 - (t542 * E4 - (zw_4 * (r4_x * h4b_y) - zw_4
+      * (r4_y * h4b_x))))));
+  k[2] = -(t416 * t655 + (t420 * t652 + (t412 * t657 + (t408 * t659 + (t538 * E6 - (zw_6 * (r6_x * h6b_y) +
+      zw_6 * (r6_y * h6b_x)))))));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -850,128 +848,130 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real pin3ax1_y = r1_y + pin3ax2_y;
   const Real pin3bx_y = c6 * Real(0.225);
   const Real pin3bx6_y = r6_y - pin3bx_y;
-  const Real t114 = Real(1.0) / (pin3ax2_x * pin3ax2_x + (pin3ax2_y * pin3ax2_y + (pin2ax2_y * pin2ax2_y +
-      pin2ax2_x * pin2ax2_x)));
+  const Real t114 = Real(1.0) / (pin2ax2_y * pin2ax2_y + pin2ax2_x * pin2ax2_x + (pin3ax2_y * pin3ax2_y +
+      pin3ax2_x * pin3ax2_x));
   const Real t118 = t114 * Real(0.031425) - Real(0.5);
   const Real t120 = pin2ax_y - pin2ax2_y * t118;
   const Real t122 = pin2ax_x + pin2ax2_x * t118;
   const Real t124 = pin3ax_y - pin3ax2_y * t118;
   const Real t126 = pin3ax_x + pin3ax2_x * t118;
-  const Real t134 = Real(1.0) / (t126 * t126 + (t124 * t124 + (t120 * t120 + t122 * t122)));
+  const Real t134 = Real(1.0) / (t120 * t120 + t122 * t122 + (t124 * t124 + t126 * t126));
   const Real t138 = t114 * (pin2ax2_y * pin2bx_y + pin2ax2_x * pin2bx_x);
   const Real t140 = pin2bx_y - pin2ax2_y * t138;
   const Real t142 = pin2bx_x - pin2ax2_x * t138;
   const Real t143 = pin3ax2_y * t138;
   const Real t144 = pin3ax2_x * t138;
-  const Real t152 = t134 * (t126 * t144 - (t124 * t143 - (t120 * t140 - t122 * t142)));
+  const Real t152 = t134 * (t120 * t140 - t122 * t142 - (t124 * t143 - t126 * t144));
   const Real t154 = t140 - t120 * t152;
   const Real t156 = t142 + t122 * t152;
   const Real t158 = t143 + t124 * t152;
   const Real t160 = t144 - t126 * t152;
-  const Real t168 = Real(1.0) / (t160 * t160 + (t158 * t158 + (t154 * t154 + t156 * t156)));
+  const Real t168 = Real(1.0) / (t154 * t154 + t156 * t156 + (t158 * t158 + t160 * t160));
   const Real t172 = t114 * (pin3ax2_y * pin3bx_y - pin3ax2_x * pin3bx_x);
   const Real t173 = pin2ax2_y * t172;
   const Real t174 = pin2ax2_x * t172;
   const Real t176 = pin3bx_y - pin3ax2_y * t172;
   const Real t178 = pin3bx_x + pin3ax2_x * t172;
-  const Real t186 = t134 * (t126 * t178 + (t124 * t176 - (t120 * t173 - t122 * t174)));
-  const Real t188 = t173 + t120 * t186;
-  const Real t190 = t174 - t122 * t186;
-  const Real t192 = t176 - t124 * t186;
-  const Real t194 = t178 - t126 * t186;
-  const Real t202 = t168 * (t160 * t194 - (t158 * t192 + (t154 * t188 + t156 * t190)));
-  const Real t204 = t188 + t154 * t202;
-  const Real t206 = t190 + t156 * t202;
-  const Real t208 = t192 + t158 * t202;
-  const Real t210 = t194 - t160 * t202;
-  const Real t218 = Real(1.0) / (t210 * t210 + (t208 * t208 + (t204 * t204 + t206 * t206)));
-  const Real t226 = t114 * (pin3ax2_x * pin3ax1_x - (pin3ax2_y * pin3ax1_y + (pin2ax2_y * pin2ax1_y -
-      pin2ax2_x * pin2ax1_x)));
-  const Real t228 = pin2ax1_y + pin2ax2_y * t226;
-  const Real t230 = pin2ax1_x - pin2ax2_x * t226;
-  const Real t232 = pin3ax1_y + pin3ax2_y * t226;
-  const Real t234 = pin3ax1_x - pin3ax2_x * t226;
-  const Real t242 = t134 * (t126 * t234 + (t124 * t232 + (t120 * t228 + t122 * t230)));
+  const Real t186 = t134 * (t120 * t173 - t122 * t174 - (t124 * t176 + t126 * t178));
+  const Real t188 = t173 - t120 * t186;
+  const Real t190 = t174 + t122 * t186;
+  const Real t192 = t176 + t124 * t186;
+  const Real t194 = t178 + t126 * t186;
+  const Real t202 = t168 * (t154 * t188 + t156 * t190 + (t158 * t192 - t160 * t194));
+  const Real t204 = t188 - t154 * t202;
+  const Real t206 = t190 - t156 * t202;
+  const Real t208 = t192 - t158 * t202;
+  const Real t210 = t194 + t160 * t202;
+  const Real t218 = Real(1.0) / (t204 * t204 + t206 * t206 + (t208 * t208 + t210 * t210));
+  const Real t226 = t114 * (pin2ax2_y * pin2ax1_y - pin2ax2_x * pin2ax1_x + (pin3ax2_y * pin3ax1_y - pin3ax2_x
+      * pin3ax1_x));
+  const Real t228 = pin2ax1_y - pin2ax2_y * t226;
+  const Real t230 = pin2ax1_x + pin2ax2_x * t226;
+  const Real t232 = pin3ax1_y - pin3ax2_y * t226;
+  const Real t234 = pin3ax1_x + pin3ax2_x * t226;
+  const Real t242 = t134 * (t120 * t228 + t122 * t230 + (t124 * t232 + t126 * t234));
   const Real t244 = t228 - t120 * t242;
   const Real t246 = t230 - t122 * t242;
   const Real t248 = t232 - t124 * t242;
   const Real t250 = t234 - t126 * t242;
-  const Real t258 = t168 * (t160 * t250 - (t158 * t248 - (t154 * t244 - t156 * t246)));
-  const Real t274 = t218 * (t210 * (t250 - t160 * t258) + (t208 * (t248 + t158 * t258) - (t204 * (t244 - t154
-      * t258) - t206 * (t246 + t156 * t258))));
+  const Real t258 = t168 * (t154 * t244 - t156 * t246 - (t158 * t248 - t160 * t250));
+  const Real t274 = t218 * (t204 * (t244 - t154 * t258) - t206 * (t246 + t156 * t258) - (t208 * (t248 + t158 *
+      t258) + t210 * (t250 - t160 * t258)));
   const Real t278 = t258 - t202 * t274;
   const Real t282 = t152 * t278 - (t242 - t186 * t274);
-  const Real t286 = t118 * t282 - (t138 * t278 + (t226 + t172 * t274));
+  const Real t286 = t118 * t282 - (t138 * t278 - (t226 + t172 * t274));
   const Real t295 = t114 * (pin2ax2_y * pin2bx4_y - pin2ax2_x * pin2bx4_x);
   const Real t297 = pin2bx4_y - pin2ax2_y * t295;
   const Real t299 = pin2bx4_x + pin2ax2_x * t295;
   const Real t300 = pin3ax2_y * t295;
   const Real t301 = pin3ax2_x * t295;
-  const Real t309 = t134 * (t126 * t301 - (t124 * t300 - (t120 * t297 + t122 * t299)));
+  const Real t309 = t134 * (t120 * t297 + t122 * t299 - (t124 * t300 - t126 * t301));
   const Real t311 = t297 - t120 * t309;
   const Real t313 = t299 - t122 * t309;
   const Real t315 = t300 + t124 * t309;
   const Real t317 = t301 - t126 * t309;
-  const Real t325 = t168 * (t160 * t317 + (t158 * t315 + (t154 * t311 - t156 * t313)));
-  const Real t341 = t218 * (t210 * (t317 - t160 * t325) - (t208 * (t315 - t158 * t325) + (t204 * (t311 - t154
-      * t325) - t206 * (t313 + t156 * t325))));
+  const Real t325 = t168 * (t154 * t311 - t156 * t313 + (t158 * t315 + t160 * t317));
+  const Real t341 = t218 * (t204 * (t311 - t154 * t325) - t206 * (t313 + t156 * t325) + (t208 * (t315 - t158 *
+      t325) - t210 * (t317 - t160 * t325)));
   const Real t345 = t325 - t202 * t341;
   const Real t349 = t152 * t345 - (t309 - t186 * t341);
-  const Real t353 = t118 * t349 - (t138 * t345 - (t295 - t172 * t341));
+  const Real t353 = t118 * t349 - (t138 * t345 - (t295 + t172 * t341));
   const Real t362 = t114 * (pin3ax2_y * pin3bx6_y + pin3ax2_x * pin3bx6_x);
   const Real t363 = pin2ax2_y * t362;
   const Real t364 = pin2ax2_x * t362;
   const Real t366 = pin3bx6_y - pin3ax2_y * t362;
   const Real t368 = pin3bx6_x - pin3ax2_x * t362;
-  const Real t376 = t134 * (t126 * t368 - (t124 * t366 - (t120 * t363 - t122 * t364)));
+  const Real t376 = t134 * (t120 * t363 - t122 * t364 - (t124 * t366 - t126 * t368));
   const Real t378 = t363 - t120 * t376;
   const Real t380 = t364 + t122 * t376;
   const Real t382 = t366 + t124 * t376;
   const Real t384 = t368 - t126 * t376;
-  const Real t392 = t168 * (t160 * t384 + (t158 * t382 + (t154 * t378 + t156 * t380)));
-  const Real t408 = t218 * (t210 * (t384 - t160 * t392) - (t208 * (t382 - t158 * t392) + (t204 * (t378 - t154
-      * t392) + t206 * (t380 - t156 * t392))));
+  const Real t392 = t168 * (t154 * t378 + t156 * t380 + (t158 * t382 + t160 * t384));
+  const Real t408 = t218 * (t204 * (t378 - t154 * t392) + t206 * (t380 - t156 * t392) + (t208 * (t382 - t158 *
+      t392) - t210 * (t384 - t160 * t392)));
   const Real t412 = t392 - t202 * t408;
   const Real t416 = t152 * t412 - (t376 - t186 * t408);
-  const Real t420 = t118 * t416 - (t138 * t412 + (t362 + t172 * t408));
+  const Real t420 = t118 * t416 - (t138 * t412 + (t362 - t172 * t408));
   const Real t424 = t420 * state.z[2] - (t286 * state.z[0] + t353 * state.z[1]);
   const Real t427 = t416 * state.z[2] - (t282 * state.z[0] + t349 * state.z[1]);
   const Real t430 = t412 * state.z[2] - (t278 * state.z[0] + t345 * state.z[1]);
   const Real t433 = t408 * state.z[2] - (t274 * state.z[0] + t341 * state.z[1]);
-  const Real t434 = Real(0.225) * state.z[2];
-  const Real t437 = state.z[2] * (c5 * t434);
-  const Real w6_z = state.z[2] - t433;
-  const Real t439 = Real(0.225) * w6_z;
+  const Real t435 = state.z[2] * (Real(0.225) * state.z[2]);
+  const Real t436 = c5 * t435;
+  const Real w6_z = state.z[2] + t433;
+  const Real t438 = Real(0.225) * w6_z;
   const Real w1_z = state.z[0] + t424;
   const Real w2_z = t427 + w1_z;
-  const Real t445 = state.z[0] * (r1_x * state.z[0]);
-  const Real t449 = t445 - w1_z * (r2_x * w1_z);
-  const Real t450 = t434 * (s5 * state.z[2]);
-  const Real t454 = state.z[0] * (r1_y * state.z[0]);
-  const Real t456 = t454 + w1_z * (r2_y * w1_z);
-  const Real t462 = state.z[1] * (r4_y * state.z[1]);
+  const Real t441 = state.z[0] * state.z[0];
+  const Real t442 = r1_x * t441;
+  const Real t445 = t442 - w1_z * (r2_x * w1_z);
+  const Real t446 = s5 * t435;
+  const Real t451 = r1_y * t441;
+  const Real t454 = t451 + w1_z * (r2_y * w1_z);
+  const Real t455 = state.z[1] * state.z[1];
+  const Real t456 = r4_y * t455;
   const Real w4_z = state.z[1] + t430;
-  const Real t470 = w2_z * (pin3ax_x * w2_z) + (w6_z * (s6 * t439) - (t449 - t450));
-  const Real t474 = w2_z * (pin3ax_y * w2_z) - (t456 + (t437 - w6_z * (c6 * t439)));
-  const Real t476 = state.z[1] * (r4_x * state.z[1]);
-  const Real t481 = w4_z * (pin2bx_x * w4_z) - (t476 + (t449 - w2_z * (pin2ax_x * w2_z)));
-  const Real t485 = w4_z * (pin2bx_y * w4_z) - (w2_z * (pin2ax_y * w2_z) - (t456 + t462));
-  const Real t493 = t114 * (pin3ax2_x * t474 + (pin3ax2_y * t470 + (pin2ax2_y * t481 - pin2ax2_x * t485)));
-  const Real t495 = t481 - pin2ax2_y * t493;
-  const Real t497 = t485 + pin2ax2_x * t493;
-  const Real t499 = t470 - pin3ax2_y * t493;
-  const Real t501 = t474 - pin3ax2_x * t493;
-  const Real t509 = t134 * (t126 * t501 - (t124 * t499 + (t120 * t495 + t122 * t497)));
-  const Real t511 = t495 + t120 * t509;
-  const Real t513 = t497 + t122 * t509;
-  const Real t515 = t499 + t124 * t509;
-  const Real t517 = t501 - t126 * t509;
-  const Real t525 = t168 * (t160 * t517 + (t158 * t515 - (t154 * t511 - t156 * t513)));
-  const Real t541 = t218 * (t210 * (t517 - t160 * t525) - (t208 * (t515 - t158 * t525) - (t204 * (t511 + t154
-      * t525) - t206 * (t513 - t156 * t525))));
-  const Real t545 = t525 - t202 * t541;
-  const Real t549 = t152 * t545 - (t509 - t186 * t541);
-  const Real ral1o_z = t118 * t549 - (t138 * t545 + (t493 + t172 * t541));
+  const Real t466 = w2_z * (pin3ax_x * w2_z) - (t445 - (t446 + t438 * (s6 * w6_z)));
+  const Real t471 = w2_z * (pin3ax_y * w2_z) - (t454 + (t436 - t438 * (c6 * w6_z)));
+  const Real t472 = r4_x * t455;
+  const Real t477 = w2_z * (pin2ax_x * w2_z) - (t445 + (t472 - w4_z * (pin2bx_x * w4_z)));
+  const Real t482 = w2_z * (pin2ax_y * w2_z) - (t454 + (t456 + w4_z * (pin2bx_y * w4_z)));
+  const Real t490 = t114 * (pin2ax2_y * t477 + pin2ax2_x * t482 + (pin3ax2_y * t466 + pin3ax2_x * t471));
+  const Real t492 = t477 - pin2ax2_y * t490;
+  const Real t494 = t482 - pin2ax2_x * t490;
+  const Real t496 = t466 - pin3ax2_y * t490;
+  const Real t498 = t471 - pin3ax2_x * t490;
+  const Real t506 = t134 * (t120 * t492 - t122 * t494 + (t124 * t496 - t126 * t498));
+  const Real t508 = t492 - t120 * t506;
+  const Real t510 = t494 + t122 * t506;
+  const Real t512 = t496 - t124 * t506;
+  const Real t514 = t498 + t126 * t506;
+  const Real t522 = t168 * (t154 * t508 + t156 * t510 - (t158 * t512 + t160 * t514));
+  const Real t538 = t218 * (t204 * (t508 - t154 * t522) + t206 * (t510 - t156 * t522) - (t208 * (t512 + t158 *
+      t522) - t210 * (t514 + t160 * t522)));
+  const Real t542 = t522 - t202 * t538;
+  const Real t546 = t152 * t542 - (t506 - t186 * t538);
+  const Real ral1o_z = t118 * t546 - (t138 * t542 - (t490 + t172 * t538));
   const Real h6b_x = s6 * Real(0.03375);
   const Real h6b_y = c6 * Real(0.03375);
   const Real D6 = t80 * Real(0.00759375);
@@ -984,70 +984,70 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real h2b_y = s2 * model.h_x + c2 * model.h_y;
   const Real D2 = r2_x * h2b_x - r2_y * h2b_y;
   const Real E2 = D2 + model.S2b_zz;
-  const Real h1_x = s1 * model.platform_h_y + (h2b_x + c1 * model.platform_h_x);
-  const Real h1_y = c1 * model.platform_h_y + (h2b_y - s1 * model.platform_h_x);
-  const Real J1 = D2 + E2 + model.c5;
+  const Real h1_x = h2b_x + (c1 * model.platform_h_x + s1 * model.platform_h_y);
+  const Real h1_y = h2b_y - (s1 * model.platform_h_x - c1 * model.platform_h_y);
+  const Real J1 = E2 + (D2 + model.c5);
   const Real D1 = r1_x * h1_x + r1_y * h1_y;
   const Real E1 = J1 - D1;
-  const Real p_2_1n_z = r1_y * h2b_y - (E2 - r1_x * h2b_x);
-  const Real t617 = t353 * J1 + t349 * E2;
-  const Real t620 = t353 * E2 + t349 * model.S2b_zz;
-  const Real t622 = E4 - t345 * Real(0.0050625);
-  const Real t623 = t341 * Real(0.0050625);
-  const Real t635 = t420 * J1 + t416 * E2;
-  const Real t638 = t420 * E2 + t416 * model.S2b_zz;
-  const Real t640 = t412 * Real(0.0050625);
-  const Real t642 = E6 - t408 * Real(0.0050625);
-  const Real t651 = t274 * t642 - (t278 * t640 + (t282 * t638 + (t286 * t635 - (t420 * E1 - t416 *
-      p_2_1n_z))));
-  const Real t659 = t341 * t642 - (t345 * t640 + (t349 * t638 - (t412 * E4 - t353 * t635)));
-  const Real t672 = Real(1.0) / (E6 + (D6 + (t420 * t635 + (t416 * t638 + (t412 * t640 - t408 * (E6 +
-      t642))))) + Real(0.0239375));
-  const Real t673 = t659 * t672;
-  const Real t690 = t651 * t673 - (t274 * t623 - (t278 * t622 - (t282 * t620 + (t286 * t617 - (t353 * E1 -
-      t349 * p_2_1n_z)))));
-  const Real t691 = t651 * t672;
-  const Real t693 = Real(1.0) / (E4 + (D4 + (t353 * t617 + (t349 * t620 + (t341 * t623 - (t659 * t673 -
-      (Real(0.0239375) - t345 * (E4 + t622))))))));
-  const Real t694 = t690 * t693;
+  const Real p_2_1n_z = E2 - (r1_x * h2b_x + r1_y * h2b_y);
+  const Real t614 = t353 * J1 + t349 * E2;
+  const Real t617 = t353 * E2 + t349 * model.S2b_zz;
+  const Real t619 = E4 - t345 * Real(0.0050625);
+  const Real t620 = t341 * Real(0.0050625);
+  const Real t632 = t420 * J1 + t416 * E2;
+  const Real t635 = t420 * E2 + t416 * model.S2b_zz;
+  const Real t637 = t412 * Real(0.0050625);
+  const Real t639 = E6 + t408 * Real(0.0050625);
+  const Real t648 = t282 * t635 + (t286 * t632 - (t420 * E1 + (t416 * p_2_1n_z - (t278 * t637 + t274 *
+      t639))));
+  const Real t656 = t349 * t635 + (t353 * t632 + (t345 * t637 - (t412 * E4 - t341 * t639)));
+  const Real t669 = Real(1.0) / (t416 * t635 + (t420 * t632 + (t408 * (E6 + t639) + (t412 * t637 + (E6 + (D6 +
+      Real(0.0239375)))))));
+  const Real t670 = t656 * t669;
+  const Real t687 = t648 * t670 - (t282 * t617 + (t286 * t614 - (t353 * E1 + (t278 * t619 + (t349 * p_2_1n_z -
+      t274 * t620)))));
+  const Real t688 = t648 * t669;
+  const Real t690 = Real(1.0) / (t656 * t670 - (t349 * t617 + (t353 * t614 - (t345 * (E4 + t619) - (t341 *
+      t620 + (E4 + (D4 + Real(0.0239375))))))));
+  const Real t691 = t687 * t690;
   const Real push0_0 = input.u[0] * Real(10.0);
   const Real push3_0 = Real(10.0) * input.u[1];
   const Real push5_0 = Real(10.0) * input.u[2];
   const Real zw_1 = t424 * (state.z[0] + w1_z);
   const Real rdn1_z = ral1o_z * J1;
-  const Real ra2o_x = t449 - r2_y * ral1o_z;
-  const Real ra2o_y = t456 - r2_x * ral1o_z;
+  const Real ra2o_x = t445 + r2_y * ral1o_z;
+  const Real ra2o_y = t454 + r2_x * ral1o_z;
   const Real zw_2 = t427 * (w1_z + w2_z);
-  const Real rdf2_x = t549 * h2b_y - h2b_x * zw_2;
-  const Real rdf2_y = t549 * h2b_x + h2b_y * zw_2;
-  const Real rdn2_z = t549 * model.S2b_zz;
+  const Real rdf2_x = t546 * h2b_y + h2b_x * zw_2;
+  const Real rdf2_y = t546 * h2b_x - h2b_y * zw_2;
+  const Real rdn2_z = t546 * model.S2b_zz;
   const Real zw_4 = t430 * (state.z[1] + w4_z);
-  const Real rdf4_x = t545 * h4b_y - h4b_x * zw_4;
-  const Real rdf4_y = t545 * h4b_x + h4b_y * zw_4;
-  const Real rdn4_z = t545 * Real(0.0050625);
+  const Real rdf4_x = t542 * h4b_y + h4b_x * zw_4;
+  const Real rdf4_y = t542 * h4b_x - h4b_y * zw_4;
+  const Real rdn4_z = t542 * Real(0.0050625);
   const Real zw_6 = t433 * (state.z[2] + w6_z);
-  const Real rdf6_x = t541 * h6b_y - h6b_x * zw_6;
-  const Real rdf6_y = t541 * h6b_x + h6b_y * zw_6;
-  const Real rdn6_z = t541 * Real(0.0050625);
-  const Real rf2c_x = rdf2_x + (ral1o_z * h1_y - h1_x * zw_1);
-  const Real rf2c_y = rdf2_y + (ral1o_z * h1_x + h1_y * zw_1);
-  const Real rn2c_z = r2_y * rdf2_x - (r2_x * rdf2_y + (rdn1_z + rdn2_z));
-  const Real rQ1_0 = rn2c_z + (t454 * h1_x - t445 * h1_y);
-  const Real rQ2_0 = rdn2_z + (h2b_y * ra2o_x + (ral1o_z * model.S2b_zz - h2b_x * ra2o_y));
-  const Real rQ4_0 = rdn4_z + (t462 * h4b_x - t476 * h4b_y);
-  const Real rQ6_0 = rdn6_z + (t437 * h6b_x + t450 * h6b_y);
-  const Real t810 = t408 * rQ6_0 + (t412 * rQ4_0 + (t416 * rQ2_0 - (t420 * rQ1_0 - (r6_y * rdf6_x - (r6_x *
-      rdf6_y - (push5_0 - rdn6_z))))));
-  const Real t819 = t673 * t810 + (t341 * rQ6_0 + (t345 * rQ4_0 + (t349 * rQ2_0 - (t353 * rQ1_0 + (r4_y *
-      rdf4_x + (r4_x * rdf4_y + (push3_0 + rdn4_z)))))));
-  const Real t831 = (t694 * t819 + (t691 * t810 + (t274 * rQ6_0 + (t278 * rQ4_0 + (t282 * rQ2_0 - (t286 *
-      rQ1_0 - (r1_y * rf2c_x + (r1_x * rf2c_y - (push0_0 - rn2c_z))))))))) / (Real(0.0050625) * (t278 * t278 +
-      t274 * t274) + (E1 - (D1 + (t651 * t691 + (t690 * t694 - (t282 * (t282 * model.S2b_zz + (p_2_1n_z +
-      (p_2_1n_z + t286 * E2))) + t286 * (t282 * E2 - (E1 + (E1 - t286 * J1))))))) + model.c6));
-  const Real t834 = t693 * t819 + t694 * t831;
-  zdot[0] = -t831;
-  zdot[1] = -t834;
-  zdot[2] = t673 * t834 + (t672 * t810 + t691 * t831);
+  const Real rdf6_x = t538 * h6b_y + h6b_x * zw_6;
+  const Real rdf6_y = t538 * h6b_x - h6b_y * zw_6;
+  const Real rdn6_z = t538 * Real(0.0050625);
+  const Real rf2c_x = ral1o_z * h1_y + (h1_x * zw_1 + rdf2_x);
+  const Real rf2c_y = ral1o_z * h1_x - (h1_y * zw_1 - rdf2_y);
+  const Real rn2c_z = rdn1_z + rdn2_z + (r2_x * rdf2_y - r2_y * rdf2_x);
+  const Real rQ1_0 = rn2c_z + (t451 * h1_x - t442 * h1_y);
+  const Real rQ2_0 = h2b_y * ra2o_x - (h2b_x * ra2o_y + (ral1o_z * model.S2b_zz + rdn2_z));
+  const Real rQ4_0 = rdn4_z - (t456 * h4b_x - t472 * h4b_y);
+  const Real rQ6_0 = rdn6_z + (t436 * h6b_x + t446 * h6b_y);
+  const Real t807 = t416 * rQ2_0 - (t420 * rQ1_0 + (t412 * rQ4_0 + (r6_x * rdf6_y - (push5_0 - rdn6_z) - (r6_y
+      * rdf6_x - t408 * rQ6_0))));
+  const Real t816 = t670 * t807 - (t349 * rQ2_0 - (t353 * rQ1_0 - (r4_x * rdf4_y + r4_y * rdf4_x - (t345 *
+      rQ4_0 + (t341 * rQ6_0 + (push3_0 - rdn4_z))))));
+  const Real t828 = (t691 * t816 - (t688 * t807 - (t282 * rQ2_0 - (t286 * rQ1_0 - (rn2c_z - (t278 * rQ4_0 +
+      (push0_0 + t274 * rQ6_0)) - (r1_x * rf2c_y + r1_y * rf2c_x)))))) / (t687 * t691 - (t648 * t688 - (t286 *
+      (t286 * J1 + (t282 * E2 - (E1 + E1))) + (t282 * (t286 * E2 + (t282 * model.S2b_zz - (p_2_1n_z +
+      p_2_1n_z))) + (Real(0.0050625) * (t278 * t278 + t274 * t274) + (E1 - (D1 - model.c6)))))));
+  const Real t831 = t690 * t816 - t691 * t828;
+  zdot[0] = -t828;
+  zdot[1] = -t831;
+  zdot[2] = -(t670 * t831 - (t669 * t807 - t688 * t828));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -1095,134 +1095,136 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real pin3ax1_y = r1_y + pin3ax2_y;
   const Real pin3bx_y = c6 * Real(0.225);
   const Real pin3bx6_y = r6_y - pin3bx_y;
-  const Real t114 = Real(1.0) / (pin2ax2_x * pin2ax2_x + (pin2ax2_y * pin2ax2_y + (pin3ax2_y * pin3ax2_y +
-      pin3ax2_x * pin3ax2_x)));
+  const Real t114 = Real(1.0) / (pin2ax2_y * pin2ax2_y + pin2ax2_x * pin2ax2_x + (pin3ax2_y * pin3ax2_y +
+      pin3ax2_x * pin3ax2_x));
   const Real t118 = t114 * Real(0.031425) - Real(0.5);
   const Real t120 = pin2ax_y - pin2ax2_y * t118;
   const Real t122 = pin2ax_x + pin2ax2_x * t118;
   const Real t124 = pin3ax_y - pin3ax2_y * t118;
   const Real t126 = pin3ax_x + pin3ax2_x * t118;
-  const Real t134 = Real(1.0) / (t122 * t122 + (t120 * t120 + (t124 * t124 + t126 * t126)));
+  const Real t134 = Real(1.0) / (t120 * t120 + t122 * t122 + (t124 * t124 + t126 * t126));
   const Real t138 = t114 * (pin2ax2_y * pin2bx_y + pin2ax2_x * pin2bx_x);
   const Real t140 = pin2bx_y - pin2ax2_y * t138;
   const Real t142 = pin2bx_x - pin2ax2_x * t138;
   const Real t143 = pin3ax2_y * t138;
   const Real t144 = pin3ax2_x * t138;
-  const Real t152 = t134 * (t122 * t142 - (t120 * t140 - (t124 * t143 - t126 * t144)));
-  const Real t154 = t140 + t120 * t152;
-  const Real t156 = t142 - t122 * t152;
-  const Real t158 = t143 - t124 * t152;
-  const Real t160 = t144 + t126 * t152;
-  const Real t168 = Real(1.0) / (t156 * t156 + (t154 * t154 + (t158 * t158 + t160 * t160)));
+  const Real t152 = t134 * (t120 * t140 - t122 * t142 - (t124 * t143 - t126 * t144));
+  const Real t154 = t140 - t120 * t152;
+  const Real t156 = t142 + t122 * t152;
+  const Real t158 = t143 + t124 * t152;
+  const Real t160 = t144 - t126 * t152;
+  const Real t168 = Real(1.0) / (t154 * t154 + t156 * t156 + (t158 * t158 + t160 * t160));
   const Real t172 = t114 * (pin3ax2_y * pin3bx_y - pin3ax2_x * pin3bx_x);
   const Real t173 = pin2ax2_y * t172;
   const Real t174 = pin2ax2_x * t172;
   const Real t176 = pin3bx_y - pin3ax2_y * t172;
   const Real t178 = pin3bx_x + pin3ax2_x * t172;
-  const Real t186 = t134 * (t122 * t174 - (t120 * t173 - (t124 * t176 + t126 * t178)));
-  const Real t188 = t173 + t120 * t186;
-  const Real t190 = t174 - t122 * t186;
-  const Real t192 = t176 - t124 * t186;
-  const Real t194 = t178 - t126 * t186;
-  const Real t202 = t168 * (t156 * t190 + (t154 * t188 + (t158 * t192 - t160 * t194)));
+  const Real t186 = t134 * (t120 * t173 - t122 * t174 - (t124 * t176 + t126 * t178));
+  const Real t188 = t173 - t120 * t186;
+  const Real t190 = t174 + t122 * t186;
+  const Real t192 = t176 + t124 * t186;
+  const Real t194 = t178 + t126 * t186;
+  const Real t202 = t168 * (t154 * t188 + t156 * t190 + (t158 * t192 - t160 * t194));
   const Real t204 = t188 - t154 * t202;
   const Real t206 = t190 - t156 * t202;
   const Real t208 = t192 - t158 * t202;
   const Real t210 = t194 + t160 * t202;
-  const Real t218 = Real(1.0) / (t206 * t206 + (t204 * t204 + (t208 * t208 + t210 * t210)));
-  const Real t226 = t114 * (pin2ax2_x * pin2ax1_x - (pin2ax2_y * pin2ax1_y + (pin3ax2_y * pin3ax1_y -
-      pin3ax2_x * pin3ax1_x)));
-  const Real t228 = pin2ax1_y + pin2ax2_y * t226;
-  const Real t230 = pin2ax1_x - pin2ax2_x * t226;
-  const Real t232 = pin3ax1_y + pin3ax2_y * t226;
-  const Real t234 = pin3ax1_x - pin3ax2_x * t226;
-  const Real t242 = t134 * (t122 * t230 + (t120 * t228 + (t124 * t232 + t126 * t234)));
+  const Real t218 = Real(1.0) / (t204 * t204 + t206 * t206 + (t208 * t208 + t210 * t210));
+  const Real t226 = t114 * (pin2ax2_y * pin2ax1_y - pin2ax2_x * pin2ax1_x + (pin3ax2_y * pin3ax1_y - pin3ax2_x
+      * pin3ax1_x));
+  const Real t228 = pin2ax1_y - pin2ax2_y * t226;
+  const Real t230 = pin2ax1_x + pin2ax2_x * t226;
+  const Real t232 = pin3ax1_y - pin3ax2_y * t226;
+  const Real t234 = pin3ax1_x + pin3ax2_x * t226;
+  const Real t242 = t134 * (t120 * t228 + t122 * t230 + (t124 * t232 + t126 * t234));
   const Real t244 = t228 - t120 * t242;
   const Real t246 = t230 - t122 * t242;
   const Real t248 = t232 - t124 * t242;
   const Real t250 = t234 - t126 * t242;
-  const Real t258 = t168 * (t156 * t246 - (t154 * t244 - (t158 * t248 - t160 * t250)));
-  const Real t274 = t218 * (t206 * (t246 - t156 * t258) - (t204 * (t244 + t154 * t258) - (t208 * (t248 - t158
-      * t258) + t210 * (t250 + t160 * t258))));
+  const Real t258 = t168 * (t154 * t244 - t156 * t246 - (t158 * t248 - t160 * t250));
+  const Real t274 = t218 * (t204 * (t244 - t154 * t258) - t206 * (t246 + t156 * t258) - (t208 * (t248 + t158 *
+      t258) + t210 * (t250 - t160 * t258)));
   const Real t278 = t258 - t202 * t274;
-  const Real t282 = t186 * t274 - (t242 - t152 * t278);
-  const Real t286 = t172 * t274 + (t226 - (t138 * t278 + t118 * t282));
+  const Real t282 = t152 * t278 - (t242 - t186 * t274);
+  const Real t286 = t118 * t282 - (t138 * t278 - (t226 + t172 * t274));
   const Real t295 = t114 * (pin2ax2_y * pin2bx4_y - pin2ax2_x * pin2bx4_x);
   const Real t297 = pin2bx4_y - pin2ax2_y * t295;
   const Real t299 = pin2bx4_x + pin2ax2_x * t295;
   const Real t300 = pin3ax2_y * t295;
   const Real t301 = pin3ax2_x * t295;
-  const Real t309 = t134 * (t122 * t299 + (t120 * t297 - (t124 * t300 - t126 * t301)));
+  const Real t309 = t134 * (t120 * t297 + t122 * t299 - (t124 * t300 - t126 * t301));
   const Real t311 = t297 - t120 * t309;
   const Real t313 = t299 - t122 * t309;
   const Real t315 = t300 + t124 * t309;
   const Real t317 = t301 - t126 * t309;
-  const Real t325 = t168 * (t156 * t313 - (t154 * t311 + (t158 * t315 + t160 * t317)));
-  const Real t341 = t218 * (t206 * (t313 - t156 * t325) - (t204 * (t311 + t154 * t325) + (t208 * (t315 + t158
-      * t325) - t210 * (t317 + t160 * t325))));
+  const Real t325 = t168 * (t154 * t311 - t156 * t313 + (t158 * t315 + t160 * t317));
+  const Real t341 = t218 * (t204 * (t311 - t154 * t325) - t206 * (t313 + t156 * t325) + (t208 * (t315 - t158 *
+      t325) - t210 * (t317 - t160 * t325)));
   const Real t345 = t325 - t202 * t341;
-  const Real t349 = t186 * t341 - (t309 - t152 * t345);
-  const Real t353 = t172 * t341 - (t295 + (t138 * t345 + t118 * t349));
+  const Real t349 = t152 * t345 - (t309 - t186 * t341);
+  const Real t353 = t118 * t349 - (t138 * t345 - (t295 + t172 * t341));
   const Real t362 = t114 * (pin3ax2_y * pin3bx6_y + pin3ax2_x * pin3bx6_x);
   const Real t363 = pin2ax2_y * t362;
   const Real t364 = pin2ax2_x * t362;
   const Real t366 = pin3bx6_y - pin3ax2_y * t362;
   const Real t368 = pin3bx6_x - pin3ax2_x * t362;
-  const Real t376 = t134 * (t122 * t364 - (t120 * t363 - (t124 * t366 - t126 * t368)));
-  const Real t378 = t363 + t120 * t376;
-  const Real t380 = t364 - t122 * t376;
-  const Real t382 = t366 - t124 * t376;
-  const Real t384 = t368 + t126 * t376;
-  const Real t392 = t168 * (t156 * t380 + (t154 * t378 + (t158 * t382 + t160 * t384)));
-  const Real t408 = t218 * (t206 * (t380 - t156 * t392) + (t204 * (t378 - t154 * t392) + (t208 * (t382 - t158
-      * t392) - t210 * (t384 - t160 * t392))));
+  const Real t376 = t134 * (t120 * t363 - t122 * t364 - (t124 * t366 - t126 * t368));
+  const Real t378 = t363 - t120 * t376;
+  const Real t380 = t364 + t122 * t376;
+  const Real t382 = t366 + t124 * t376;
+  const Real t384 = t368 - t126 * t376;
+  const Real t392 = t168 * (t154 * t378 + t156 * t380 + (t158 * t382 + t160 * t384));
+  const Real t408 = t218 * (t204 * (t378 - t154 * t392) + t206 * (t380 - t156 * t392) + (t208 * (t382 - t158 *
+      t392) - t210 * (t384 - t160 * t392)));
   const Real t412 = t392 - t202 * t408;
-  const Real t416 = t186 * t408 - (t376 - t152 * t412);
-  const Real t420 = t172 * t408 - (t362 + (t138 * t412 + t118 * t416));
-  const Real t424 = t353 * state.z[1] + (t286 * state.z[0] + t420 * state.z[2]);
-  const Real t427 = t349 * state.z[1] + (t282 * state.z[0] + t416 * state.z[2]);
-  const Real t430 = t345 * state.z[1] + (t278 * state.z[0] + t412 * state.z[2]);
-  const Real t433 = t341 * state.z[1] + (t274 * state.z[0] + t408 * state.z[2]);
-  const Real t434 = Real(0.225) * state.z[2];
-  const Real t437 = state.z[2] * (c5 * t434);
+  const Real t416 = t152 * t412 - (t376 - t186 * t408);
+  const Real t420 = t118 * t416 - (t138 * t412 + (t362 - t172 * t408));
+  const Real t424 = t420 * state.z[2] - (t286 * state.z[0] + t353 * state.z[1]);
+  const Real t427 = t416 * state.z[2] - (t282 * state.z[0] + t349 * state.z[1]);
+  const Real t430 = t412 * state.z[2] - (t278 * state.z[0] + t345 * state.z[1]);
+  const Real t433 = t408 * state.z[2] - (t274 * state.z[0] + t341 * state.z[1]);
+  const Real t435 = state.z[2] * (Real(0.225) * state.z[2]);
+  const Real t436 = c5 * t435;
   const Real w6_z = state.z[2] + t433;
-  const Real t439 = Real(0.225) * w6_z;
+  const Real t438 = Real(0.225) * w6_z;
   const Real w1_z = state.z[0] + t424;
-  const Real w2_z = t427 - w1_z;
-  const Real t445 = state.z[0] * (r1_x * state.z[0]);
-  const Real t448 = w1_z * (r2_x * w1_z);
-  const Real t449 = t445 - t448;
-  const Real t450 = t434 * (s5 * state.z[2]);
-  const Real t454 = state.z[0] * (r1_y * state.z[0]);
-  const Real t455 = w1_z * (r2_y * w1_z);
-  const Real t456 = t454 + t455;
-  const Real t462 = state.z[1] * (r4_y * state.z[1]);
+  const Real w2_z = t427 + w1_z;
+  const Real t441 = state.z[0] * state.z[0];
+  const Real t442 = r1_x * t441;
+  const Real t444 = w1_z * (r2_x * w1_z);
+  const Real t445 = t442 - t444;
+  const Real t446 = s5 * t435;
+  const Real t451 = r1_y * t441;
+  const Real t453 = w1_z * (r2_y * w1_z);
+  const Real t454 = t451 + t453;
+  const Real t455 = state.z[1] * state.z[1];
+  const Real t456 = r4_y * t455;
   const Real w4_z = state.z[1] + t430;
-  const Real t470 = t450 - (t449 - (w6_z * (s6 * t439) + w2_z * (pin3ax_x * w2_z)));
-  const Real t474 = w6_z * (c6 * t439) - (t437 + (t456 - w2_z * (pin3ax_y * w2_z)));
-  const Real t476 = state.z[1] * (r4_x * state.z[1]);
-  const Real t481 = w2_z * (pin2ax_x * w2_z) - (t449 + (t476 - w4_z * (pin2bx_x * w4_z)));
-  const Real t485 = t462 + (t456 - (w2_z * (pin2ax_y * w2_z) - w4_z * (pin2bx_y * w4_z)));
-  const Real t493 = t114 * (pin2ax2_x * t485 - (pin2ax2_y * t481 + (pin3ax2_y * t470 + pin3ax2_x * t474)));
-  const Real t495 = t481 + pin2ax2_y * t493;
-  const Real t497 = t485 - pin2ax2_x * t493;
-  const Real t499 = t470 + pin3ax2_y * t493;
-  const Real t501 = t474 + pin3ax2_x * t493;
-  const Real t509 = t134 * (t122 * t497 + (t120 * t495 + (t124 * t499 - t126 * t501)));
-  const Real t511 = t495 - t120 * t509;
-  const Real t513 = t497 - t122 * t509;
-  const Real t515 = t499 - t124 * t509;
-  const Real t517 = t501 + t126 * t509;
-  const Real t525 = t168 * (t156 * t513 - (t154 * t511 - (t158 * t515 + t160 * t517)));
-  const Real t541 = t218 * (t206 * (t513 - t156 * t525) - (t204 * (t511 + t154 * t525) - (t208 * (t515 - t158
-      * t525) - t210 * (t517 - t160 * t525))));
-  const Real t545 = t525 - t202 * t541;
-  const Real t549 = t186 * t541 - (t509 - t152 * t545);
-  const Real t568 = t172 * t541 + (t493 - (t138 * t545 + (t118 * t549 + (t286 * zdot[0] + (t353 * zdot[1] +
-      t420 * zdot[2])))));
-  const Real t572 = t282 * zdot[0] - (t549 - (t349 * zdot[1] + t416 * zdot[2]));
-  const Real t576 = t278 * zdot[0] - (t545 - (t345 * zdot[1] + t412 * zdot[2]));
-  const Real t580 = t274 * zdot[0] - (t541 - (t341 * zdot[1] + t408 * zdot[2]));
+  const Real t466 = w2_z * (pin3ax_x * w2_z) - (t445 - (t446 + t438 * (s6 * w6_z)));
+  const Real t471 = w2_z * (pin3ax_y * w2_z) - (t454 + (t436 - t438 * (c6 * w6_z)));
+  const Real t472 = r4_x * t455;
+  const Real t477 = w2_z * (pin2ax_x * w2_z) - (t445 + (t472 - w4_z * (pin2bx_x * w4_z)));
+  const Real t482 = w2_z * (pin2ax_y * w2_z) - (t454 + (t456 + w4_z * (pin2bx_y * w4_z)));
+  const Real t490 = t114 * (pin2ax2_y * t477 + pin2ax2_x * t482 + (pin3ax2_y * t466 + pin3ax2_x * t471));
+  const Real t492 = t477 - pin2ax2_y * t490;
+  const Real t494 = t482 - pin2ax2_x * t490;
+  const Real t496 = t466 - pin3ax2_y * t490;
+  const Real t498 = t471 - pin3ax2_x * t490;
+  const Real t506 = t134 * (t120 * t492 - t122 * t494 + (t124 * t496 - t126 * t498));
+  const Real t508 = t492 - t120 * t506;
+  const Real t510 = t494 + t122 * t506;
+  const Real t512 = t496 - t124 * t506;
+  const Real t514 = t498 + t126 * t506;
+  const Real t522 = t168 * (t154 * t508 + t156 * t510 - (t158 * t512 + t160 * t514));
+  const Real t538 = t218 * (t204 * (t508 - t154 * t522) + t206 * (t510 - t156 * t522) - (t208 * (t512 + t158 *
+      t522) - t210 * (t514 + t160 * t522)));
+  const Real t542 = t522 - t202 * t538;
+  const Real t546 = t152 * t542 - (t506 - t186 * t538);
+  const Real t565 = t118 * t546 - (t138 * t542 - (t172 * t538 + (t490 + (t420 * zdot[2] - (t286 * zdot[0] +
+      t353 * zdot[1])))));
+  const Real t569 = t546 + (t416 * zdot[2] - (t282 * zdot[0] + t349 * zdot[1]));
+  const Real t573 = t542 + (t412 * zdot[2] - (t278 * zdot[0] + t345 * zdot[1]));
+  const Real t577 = t538 + (t408 * zdot[2] - (t274 * zdot[0] + t341 * zdot[1]));
   const Real h6b_x = s6 * Real(0.03375);
   const Real h6b_y = c6 * Real(0.03375);
   const Real h4b_x = s4 * Real(0.016874999999999998) - c4 * Real(0.029228357377724806);
@@ -1231,46 +1233,46 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real h2b_x = c2 * model.h_x - s2 * model.h_y;
   const Real h2b_y = s2 * model.h_x + c2 * model.h_y;
   const Real D2 = r2_x * h2b_x - r2_y * h2b_y;
-  const Real h1_x = c1 * model.platform_h_x + (h2b_x + s1 * model.platform_h_y);
-  const Real h1_y = s1 * model.platform_h_x - (h2b_y + c1 * model.platform_h_y);
-  const Real J1 = D2 + D2 + model.c7;
-  const Real D1 = r1_x * h1_x - r1_y * h1_y;
-  const Real aa1o_x = t445 + r1_y * zdot[0];
-  const Real aa1o_y = t454 - r1_x * zdot[0];
+  const Real h1_x = h2b_x + (c1 * model.platform_h_x + s1 * model.platform_h_y);
+  const Real h1_y = h2b_y - (s1 * model.platform_h_x - c1 * model.platform_h_y);
+  const Real J1 = D2 + (D2 + model.c7);
+  const Real D1 = r1_x * h1_x + r1_y * h1_y;
+  const Real aa1o_x = t442 + r1_y * zdot[0];
+  const Real aa1o_y = t451 - r1_x * zdot[0];
   const Real zw_1 = t424 * (state.z[0] + w1_z);
-  const Real adn1_z = t568 * J1;
-  const Real aal1o_z = zdot[0] - t568;
-  const Real aa2o_x = t448 - (aa1o_x + r2_y * aal1o_z);
-  const Real aa2o_y = r2_x * aal1o_z + (t455 + aa1o_y);
-  const Real zw_2 = t427 * (w1_z - w2_z);
-  const Real adf2_x = t572 * h2b_y + h2b_x * zw_2;
-  const Real adf2_y = t572 * h2b_x - h2b_y * zw_2;
-  const Real adn2_z = t572 * model.S2b_zz;
-  const Real aa4o_x = t476 + r4_y * zdot[1];
-  const Real aa4o_y = t462 - r4_x * zdot[1];
+  const Real adn1_z = t565 * J1;
+  const Real aal1o_z = zdot[0] + t565;
+  const Real aa2o_x = r2_y * aal1o_z - (t444 - aa1o_x);
+  const Real aa2o_y = r2_x * aal1o_z + (t453 + aa1o_y);
+  const Real zw_2 = t427 * (w1_z + w2_z);
+  const Real adf2_x = t569 * h2b_y + h2b_x * zw_2;
+  const Real adf2_y = t569 * h2b_x - h2b_y * zw_2;
+  const Real adn2_z = t569 * model.S2b_zz;
+  const Real aa4o_x = t472 + r4_y * zdot[1];
+  const Real aa4o_y = t456 - r4_x * zdot[1];
   const Real zw_4 = t430 * (state.z[1] + w4_z);
-  const Real adf4_x = t576 * h4b_y + h4b_x * zw_4;
-  const Real adf4_y = t576 * h4b_x - h4b_y * zw_4;
-  const Real adn4_z = t576 * Real(0.0050625);
-  const Real aa6o_x = t450 - r6_y * zdot[2];
-  const Real aa6o_y = t437 + r6_x * zdot[2];
+  const Real adf4_x = t573 * h4b_y + h4b_x * zw_4;
+  const Real adf4_y = t573 * h4b_x - h4b_y * zw_4;
+  const Real adn4_z = t573 * Real(0.0050625);
+  const Real aa6o_x = t446 - r6_y * zdot[2];
+  const Real aa6o_y = t436 + r6_x * zdot[2];
   const Real zw_6 = t433 * (state.z[2] + w6_z);
-  const Real adf6_x = t580 * h6b_y + h6b_x * zw_6;
-  const Real adf6_y = t580 * h6b_x - h6b_y * zw_6;
-  const Real adn6_z = t580 * Real(0.0050625);
-  const Real af2c_x = h1_x * zw_1 + (t568 * h1_y - adf2_x);
-  const Real af2c_y = h1_y * zw_1 - (t568 * h1_x + adf2_y);
-  const Real an2c_z = adn2_z + (adn1_z + (r2_x * adf2_y - r2_y * adf2_x));
-  const Real aQ1_0 = h1_x * aa1o_y + (zdot[0] * J1 + (h1_y * aa1o_x - an2c_z));
-  const Real aQ2_0 = h2b_x * aa2o_y + (aal1o_z * model.S2b_zz + (h2b_y * aa2o_x - adn2_z));
-  const Real aQ4_0 = h4b_x * aa4o_y - (zdot[1] * Real(0.0050625) + (h4b_y * aa4o_x + adn4_z));
-  const Real aQ6_0 = h6b_x * aa6o_y + (zdot[2] * Real(0.0050625) + (h6b_y * aa6o_x + adn6_z));
-  tau[0] = -(r1_x * af2c_y + (an2c_z + (r1_y * af2c_x - (t286 * aQ1_0 - (t282 * aQ2_0 + (t278 * aQ4_0 - (t274
-      * aQ6_0 - zdot[0] * (D1 - (J1 - D1) - model.c8))))))));
-  tau[1] = r4_x * adf4_y + (adn4_z + (r4_y * adf4_x + (t353 * aQ1_0 - (t349 * aQ2_0 + (t345 * aQ4_0 - (t341 *
-      aQ6_0 + zdot[1] * (D4 + D4 + Real(0.029))))))));
-  tau[2] = r6_x * adf6_y + (adn6_z - (r6_y * adf6_x - (t420 * aQ1_0 - (t416 * aQ2_0 + (t412 * aQ4_0 - (t408 *
-      aQ6_0 + zdot[2] * (Real(0.029) + t80 * Real(0.0151875))))))));
+  const Real adf6_x = t577 * h6b_y + h6b_x * zw_6;
+  const Real adf6_y = t577 * h6b_x - h6b_y * zw_6;
+  const Real adn6_z = t577 * Real(0.0050625);
+  const Real af2c_x = adf2_x + (t565 * h1_y + h1_x * zw_1);
+  const Real af2c_y = adf2_y + (t565 * h1_x - h1_y * zw_1);
+  const Real an2c_z = adn1_z + adn2_z + (r2_x * adf2_y - r2_y * adf2_x);
+  const Real aQ1_0 = an2c_z + (zdot[0] * J1 + (h1_x * aa1o_y - h1_y * aa1o_x));
+  const Real aQ2_0 = h2b_y * aa2o_x - (h2b_x * aa2o_y + (aal1o_z * model.S2b_zz + adn2_z));
+  const Real aQ4_0 = adn4_z + (h4b_y * aa4o_x + (zdot[1] * Real(0.0050625) - h4b_x * aa4o_y));
+  const Real aQ6_0 = adn6_z + (h6b_y * aa6o_x + (zdot[2] * Real(0.0050625) + h6b_x * aa6o_y));
+  tau[0] = t282 * aQ2_0 - (t286 * aQ1_0 - (an2c_z - (t278 * aQ4_0 + (t274 * aQ6_0 + zdot[0] * (D1 - model.c8 -
+      (J1 - D1)))) - (r1_x * af2c_y + r1_y * af2c_x)));
+  tau[1] = t349 * aQ2_0 - (t353 * aQ1_0 - (r4_x * adf4_y + r4_y * adf4_x - (t345 * aQ4_0 + (t341 * aQ6_0 -
+      (adn4_z + zdot[1] * (D4 + (D4 + Real(0.029))))))));
+  tau[2] = -(t416 * aQ2_0 - (t420 * aQ1_0 + (t412 * aQ4_0 + (r6_x * adf6_y + (adn6_z + zdot[2] * (Real(0.029)
+      + t80 * Real(0.0151875))) - (r6_y * adf6_x - t408 * aQ6_0)))));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -1317,55 +1319,55 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real pin3ax1_y = r1_y + pin3ax2_y;
   const Real pin3bx_y = c6 * Real(0.225);
   const Real pin3bx6_y = r6_y - pin3bx_y;
-  const Real t114 = Real(1.0) / (pin3ax2_x * pin3ax2_x + (pin3ax2_y * pin3ax2_y + (pin2ax2_y * pin2ax2_y +
-      pin2ax2_x * pin2ax2_x)));
+  const Real t114 = Real(1.0) / (pin2ax2_y * pin2ax2_y + pin2ax2_x * pin2ax2_x + (pin3ax2_y * pin3ax2_y +
+      pin3ax2_x * pin3ax2_x));
   const Real t118 = t114 * Real(0.031425) - Real(0.5);
   const Real t120 = pin2ax_y - pin2ax2_y * t118;
   const Real t122 = pin2ax_x + pin2ax2_x * t118;
   const Real t124 = pin3ax_y - pin3ax2_y * t118;
   const Real t126 = pin3ax_x + pin3ax2_x * t118;
-  const Real t134 = Real(1.0) / (t126 * t126 + (t124 * t124 + (t120 * t120 + t122 * t122)));
+  const Real t134 = Real(1.0) / (t120 * t120 + t122 * t122 + (t124 * t124 + t126 * t126));
   const Real t138 = t114 * (pin2ax2_y * pin2bx_y + pin2ax2_x * pin2bx_x);
   const Real t140 = pin2bx_y - pin2ax2_y * t138;
   const Real t142 = pin2bx_x - pin2ax2_x * t138;
   const Real t143 = pin3ax2_y * t138;
   const Real t144 = pin3ax2_x * t138;
-  const Real t152 = t134 * (t126 * t144 - (t124 * t143 - (t120 * t140 - t122 * t142)));
+  const Real t152 = t134 * (t120 * t140 - t122 * t142 - (t124 * t143 - t126 * t144));
   const Real t154 = t140 - t120 * t152;
   const Real t156 = t142 + t122 * t152;
   const Real t158 = t143 + t124 * t152;
   const Real t160 = t144 - t126 * t152;
-  const Real t168 = Real(1.0) / (t160 * t160 + (t158 * t158 + (t154 * t154 + t156 * t156)));
+  const Real t168 = Real(1.0) / (t154 * t154 + t156 * t156 + (t158 * t158 + t160 * t160));
   const Real t172 = t114 * (pin3ax2_y * pin3bx_y - pin3ax2_x * pin3bx_x);
   const Real t173 = pin2ax2_y * t172;
   const Real t174 = pin2ax2_x * t172;
   const Real t176 = pin3bx_y - pin3ax2_y * t172;
   const Real t178 = pin3bx_x + pin3ax2_x * t172;
-  const Real t186 = t134 * (t126 * t178 + (t124 * t176 - (t120 * t173 - t122 * t174)));
-  const Real t188 = t173 + t120 * t186;
-  const Real t190 = t174 - t122 * t186;
-  const Real t192 = t176 - t124 * t186;
-  const Real t194 = t178 - t126 * t186;
-  const Real t202 = t168 * (t160 * t194 - (t158 * t192 + (t154 * t188 + t156 * t190)));
-  const Real t204 = t188 + t154 * t202;
-  const Real t206 = t190 + t156 * t202;
-  const Real t208 = t192 + t158 * t202;
-  const Real t210 = t194 - t160 * t202;
-  const Real t218 = Real(1.0) / (t210 * t210 + (t208 * t208 + (t204 * t204 + t206 * t206)));
-  const Real t226 = t114 * (pin3ax2_x * pin3ax1_x - (pin3ax2_y * pin3ax1_y + (pin2ax2_y * pin2ax1_y -
-      pin2ax2_x * pin2ax1_x)));
-  const Real t228 = pin2ax1_y + pin2ax2_y * t226;
-  const Real t230 = pin2ax1_x - pin2ax2_x * t226;
-  const Real t232 = pin3ax1_y + pin3ax2_y * t226;
-  const Real t234 = pin3ax1_x - pin3ax2_x * t226;
-  const Real t242 = t134 * (t126 * t234 + (t124 * t232 + (t120 * t228 + t122 * t230)));
+  const Real t186 = t134 * (t120 * t173 - t122 * t174 - (t124 * t176 + t126 * t178));
+  const Real t188 = t173 - t120 * t186;
+  const Real t190 = t174 + t122 * t186;
+  const Real t192 = t176 + t124 * t186;
+  const Real t194 = t178 + t126 * t186;
+  const Real t202 = t168 * (t154 * t188 + t156 * t190 + (t158 * t192 - t160 * t194));
+  const Real t204 = t188 - t154 * t202;
+  const Real t206 = t190 - t156 * t202;
+  const Real t208 = t192 - t158 * t202;
+  const Real t210 = t194 + t160 * t202;
+  const Real t218 = Real(1.0) / (t204 * t204 + t206 * t206 + (t208 * t208 + t210 * t210));
+  const Real t226 = t114 * (pin2ax2_y * pin2ax1_y - pin2ax2_x * pin2ax1_x + (pin3ax2_y * pin3ax1_y - pin3ax2_x
+      * pin3ax1_x));
+  const Real t228 = pin2ax1_y - pin2ax2_y * t226;
+  const Real t230 = pin2ax1_x + pin2ax2_x * t226;
+  const Real t232 = pin3ax1_y - pin3ax2_y * t226;
+  const Real t234 = pin3ax1_x + pin3ax2_x * t226;
+  const Real t242 = t134 * (t120 * t228 + t122 * t230 + (t124 * t232 + t126 * t234));
   const Real t244 = t228 - t120 * t242;
   const Real t246 = t230 - t122 * t242;
   const Real t248 = t232 - t124 * t242;
   const Real t250 = t234 - t126 * t242;
-  const Real t258 = t168 * (t160 * t250 - (t158 * t248 - (t154 * t244 - t156 * t246)));
-  const Real t274 = t218 * (t210 * (t250 - t160 * t258) + (t208 * (t248 + t158 * t258) - (t204 * (t244 - t154
-      * t258) - t206 * (t246 + t156 * t258))));
+  const Real t258 = t168 * (t154 * t244 - t156 * t246 - (t158 * t248 - t160 * t250));
+  const Real t274 = t218 * (t204 * (t244 - t154 * t258) - t206 * (t246 + t156 * t258) - (t208 * (t248 + t158 *
+      t258) + t210 * (t250 - t160 * t258)));
   const Real t278 = t258 - t202 * t274;
   const Real t282 = t152 * t278 - (t242 - t186 * t274);
   const Real t295 = t114 * (pin2ax2_y * pin2bx4_y - pin2ax2_x * pin2bx4_x);
@@ -1373,14 +1375,14 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real t299 = pin2bx4_x + pin2ax2_x * t295;
   const Real t300 = pin3ax2_y * t295;
   const Real t301 = pin3ax2_x * t295;
-  const Real t309 = t134 * (t126 * t301 - (t124 * t300 - (t120 * t297 + t122 * t299)));
+  const Real t309 = t134 * (t120 * t297 + t122 * t299 - (t124 * t300 - t126 * t301));
   const Real t311 = t297 - t120 * t309;
   const Real t313 = t299 - t122 * t309;
   const Real t315 = t300 + t124 * t309;
   const Real t317 = t301 - t126 * t309;
-  const Real t325 = t168 * (t160 * t317 + (t158 * t315 + (t154 * t311 - t156 * t313)));
-  const Real t341 = t218 * (t210 * (t317 - t160 * t325) - (t208 * (t315 - t158 * t325) + (t204 * (t311 - t154
-      * t325) - t206 * (t313 + t156 * t325))));
+  const Real t325 = t168 * (t154 * t311 - t156 * t313 + (t158 * t315 + t160 * t317));
+  const Real t341 = t218 * (t204 * (t311 - t154 * t325) - t206 * (t313 + t156 * t325) + (t208 * (t315 - t158 *
+      t325) - t210 * (t317 - t160 * t325)));
   const Real t345 = t325 - t202 * t341;
   const Real t349 = t152 * t345 - (t309 - t186 * t341);
   const Real t362 = t114 * (pin3ax2_y * pin3bx6_y + pin3ax2_x * pin3bx6_x);
@@ -1388,18 +1390,18 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real t364 = pin2ax2_x * t362;
   const Real t366 = pin3bx6_y - pin3ax2_y * t362;
   const Real t368 = pin3bx6_x - pin3ax2_x * t362;
-  const Real t376 = t134 * (t126 * t368 - (t124 * t366 - (t120 * t363 - t122 * t364)));
+  const Real t376 = t134 * (t120 * t363 - t122 * t364 - (t124 * t366 - t126 * t368));
   const Real t378 = t363 - t120 * t376;
   const Real t380 = t364 + t122 * t376;
   const Real t382 = t366 + t124 * t376;
   const Real t384 = t368 - t126 * t376;
-  const Real t392 = t168 * (t160 * t384 + (t158 * t382 + (t154 * t378 + t156 * t380)));
-  const Real t408 = t218 * (t210 * (t384 - t160 * t392) - (t208 * (t382 - t158 * t392) + (t204 * (t378 - t154
-      * t392) + t206 * (t380 - t156 * t392))));
+  const Real t392 = t168 * (t154 * t378 + t156 * t380 + (t158 * t382 + t160 * t384));
+  const Real t408 = t218 * (t204 * (t378 - t154 * t392) + t206 * (t380 - t156 * t392) + (t208 * (t382 - t158 *
+      t392) - t210 * (t384 - t160 * t392)));
   const Real t412 = t392 - t202 * t408;
   const Real t416 = t152 * t412 - (t376 - t186 * t408);
-  const Real t424 = (t118 * t416 - (t138 * t412 + (t362 + t172 * t408))) * state.z[2] - ((t118 * t282 - (t138
-      * t278 + (t226 + t172 * t274))) * state.z[0] + (t118 * t349 - (t138 * t345 - (t295 - t172 * t341))) *
+  const Real t424 = (t118 * t416 - (t138 * t412 + (t362 - t172 * t408))) * state.z[2] - ((t118 * t282 - (t138
+      * t278 - (t226 + t172 * t274))) * state.z[0] + (t118 * t349 - (t138 * t345 - (t295 + t172 * t341))) *
       state.z[1]);
   const Real t427 = t416 * state.z[2] - (t282 * state.z[0] + t349 * state.z[1]);
   const Real t430 = t412 * state.z[2] - (t278 * state.z[0] + t345 * state.z[1]);
@@ -1415,37 +1417,27 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real h2b_x = c2 * model.h_x - s2 * model.h_y;
   const Real h2b_y = s2 * model.h_x + c2 * model.h_y;
   const Real D2 = r2_x * h2b_x - r2_y * h2b_y;
-  const Real h1_x = s1 * model.platform_h_y + (h2b_x + c1 * model.platform_h_x);
-  const Real h1_y = c1 * model.platform_h_y + (h2b_y - s1 * model.platform_h_x);
-  const Real J1 = D2 + D2 + model.c7;
+  const Real h1_x = h2b_x + (c1 * model.platform_h_x + s1 * model.platform_h_y);
+  const Real h1_y = h2b_y - (s1 * model.platform_h_x - c1 * model.platform_h_y);
+  const Real J1 = D2 + (D2 + model.c7);
   const Real D1 = r1_x * h1_x + r1_y * h1_y;
-  const Real J0 = D1 - (J1 - D1) - model.c9;
-  const Real v0L_z = state.z[0] * J0;
-  const Real v1P_x = t424 * h1_y;
-  const Real v1P_y = t424 * h1_x;
+  const Real J0 = D1 - model.c9 - (J1 - D1);
+  const Real t487 = state.z[0] * state.z[0];
   const Real v1L_z = t424 * J1;
   const Real v2o_x = v1o_x + r2_y * w1_z;
   const Real v2o_y = v1o_y - r2_x * w1_z;
-  const Real v2P_x = t427 * h2b_y;
-  const Real v2P_y = t427 * h2b_x;
   const Real v2L_z = t427 * model.S2b_zz;
-  const Real v3L_z = state.z[1] * J3;
-  const Real v4o_x = r4_y * state.z[1];
-  const Real v4o_y = r4_x * state.z[1];
-  const Real v4P_x = t430 * h4b_y;
-  const Real v4P_y = t430 * h4b_x;
+  const Real t506 = state.z[1] * state.z[1];
   const Real v4L_z = t430 * Real(0.0050625);
-  const Real v5L_z = state.z[2] * J5;
-  const Real v6o_x = r6_y * state.z[2];
-  const Real v6o_y = r6_x * state.z[2];
+  const Real t518 = state.z[2] * state.z[2];
   const Real v6L_z = t433 * Real(0.0050625);
-  const Real T_rotor = (v6o_x * (c6 * t433) - v6o_y * (s6 * t433)) * Real(0.03375) + ((state.z[2] * state.z[2]
-      + (state.z[0] * state.z[0] + state.z[1] * state.z[1])) * Real(0.001) + (Real(0.5) * (state.z[2] * v5L_z
-      + (state.z[1] * v3L_z - (state.z[0] * v0L_z - (t424 * v1L_z + (t427 * v2L_z + (t430 * v4L_z + t433 *
-      v6L_z)))))) - (state.z[2] * v6L_z - (v4o_y * v4P_y + (v4o_x * v4P_x + (state.z[1] * v4L_z - (v2o_y *
-      v2P_y + (v2o_x * v2P_x - (w1_z * v2L_z - (v1o_y * v1P_y - (state.z[0] * v1L_z - v1o_x *
-      v1P_x)))))))))));
-  return T_rotor;
+  const Real T_rotor = v2o_x * (t427 * h2b_y) + v2o_y * (t427 * h2b_x) - (Real(0.5) * (t424 * v1L_z + (t427 *
+      v2L_z + (t430 * v4L_z + (t433 * v6L_z - (J0 * t487 - (J3 * t506 + J5 * t518)))))) + (state.z[0] * v1L_z
+      - t424 * (v1o_y * h1_x) + (w1_z * v2L_z - (t424 * (v1o_x * h1_y) + ((t433 * (c6 * (r6_y * state.z[2])) -
+      t433 * (s6 * (r6_x * state.z[2]))) * Real(0.03375) - (state.z[2] * v6L_z + (t518 + (t487 + t506)) *
+      Real(0.001)) - (state.z[1] * v4L_z + (t430 * (h4b_y * (r4_y * state.z[1])) + t430 * (h4b_x * (r4_x *
+      state.z[1])))))))));
+  return -T_rotor;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -1468,20 +1460,18 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
   const Real r2_x = c1 * Real(0.19485571585149872) + s1 * Real(0.11249999999999999);
   const Real s4 = c3 * t33 + s3 * t34;
   const Real c4 = s3 * t33 - c3 * t34;
-  const Real r4_x = c3 * Real(0.19485571585149872) + s3 * Real(0.11249999999999999);
   const Real pin2ax_x = c2 * Real(0.13856406460551018) + s2 * Real(1.0546217409559561e-17);
   const Real pin2ax2_x = r2_x + pin2ax_x;
   const Real pin2ax1_x = r1_x - pin2ax2_x;
   const Real pin2bx_x = c4 * Real(0.19485571585149872) - s4 * Real(0.11249999999999999);
-  const Real pin2bx4_x = r4_x - pin2bx_x;
+  const Real pin2bx4_x = pin2bx_x - (c3 * Real(0.19485571585149872) + s3 * Real(0.11249999999999999));
   const Real r1_y = s0 * Real(0.19485571585149872) + c0 * Real(0.11249999999999999);
   const Real r2_y = s1 * Real(0.19485571585149872) - c1 * Real(0.11249999999999999);
-  const Real r4_y = s3 * Real(0.19485571585149872) - c3 * Real(0.11249999999999999);
   const Real pin2ax_y = s2 * Real(0.13856406460551018) - c2 * Real(1.0546217409559561e-17);
   const Real pin2ax2_y = r2_y - pin2ax_y;
   const Real pin2ax1_y = r1_y + pin2ax2_y;
   const Real pin2bx_y = s4 * Real(0.19485571585149872) + c4 * Real(0.11249999999999999);
-  const Real pin2bx4_y = r4_y + pin2bx_y;
+  const Real pin2bx4_y = pin2bx_y + (s3 * Real(0.19485571585149872) - c3 * Real(0.11249999999999999));
   Real t79, t80;
   detail::sine_cosine(state.y[6], t79, t80);
   const Real s6 = c5 * t79 + s5 * t80;
@@ -1498,92 +1488,92 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
   const Real pin3ax1_y = r1_y + pin3ax2_y;
   const Real pin3bx_y = c6 * Real(0.225);
   const Real pin3bx6_y = r6_y - pin3bx_y;
-  const Real t114 = Real(1.0) / (pin2ax2_y * pin2ax2_y + pin2ax2_x * pin2ax2_x + pin3ax2_y * pin3ax2_y +
-      pin3ax2_x * pin3ax2_x);
+  const Real t114 = Real(1.0) / (pin2ax2_y * pin2ax2_y + pin2ax2_x * pin2ax2_x + (pin3ax2_y * pin3ax2_y +
+      pin3ax2_x * pin3ax2_x));
   const Real t118 = t114 * Real(0.031425) - Real(0.5);
   const Real t120 = pin2ax_y - pin2ax2_y * t118;
   const Real t122 = pin2ax_x + pin2ax2_x * t118;
   const Real t124 = pin3ax_y - pin3ax2_y * t118;
   const Real t126 = pin3ax_x + pin3ax2_x * t118;
-  const Real t134 = Real(1.0) / (t120 * t120 + t122 * t122 + t124 * t124 + t126 * t126);
+  const Real t134 = Real(1.0) / (t120 * t120 + t122 * t122 + (t124 * t124 + t126 * t126));
   const Real t138 = t114 * (pin2ax2_y * pin2bx_y + pin2ax2_x * pin2bx_x);
   const Real t140 = pin2bx_y - pin2ax2_y * t138;
   const Real t142 = pin2bx_x - pin2ax2_x * t138;
   const Real t143 = pin3ax2_y * t138;
   const Real t144 = pin3ax2_x * t138;
-  const Real t152 = t134 * (t120 * t140 - t122 * t142 - t124 * t143 + t126 * t144);
+  const Real t152 = t134 * (t120 * t140 - t122 * t142 - (t124 * t143 - t126 * t144));
   const Real t154 = t140 - t120 * t152;
   const Real t156 = t142 + t122 * t152;
   const Real t158 = t143 + t124 * t152;
   const Real t160 = t144 - t126 * t152;
-  const Real t168 = Real(1.0) / (t154 * t154 + t156 * t156 + t158 * t158 + t160 * t160);
+  const Real t168 = Real(1.0) / (t154 * t154 + t156 * t156 + (t158 * t158 + t160 * t160));
   const Real t172 = t114 * (pin3ax2_y * pin3bx_y - pin3ax2_x * pin3bx_x);
   const Real t173 = pin2ax2_y * t172;
   const Real t174 = pin2ax2_x * t172;
   const Real t176 = pin3bx_y - pin3ax2_y * t172;
   const Real t178 = pin3bx_x + pin3ax2_x * t172;
-  const Real t186 = t134 * (t120 * t173 - t122 * t174 - t124 * t176 - t126 * t178);
+  const Real t186 = t134 * (t120 * t173 - t122 * t174 - (t124 * t176 + t126 * t178));
   const Real t188 = t173 - t120 * t186;
   const Real t190 = t174 + t122 * t186;
   const Real t192 = t176 + t124 * t186;
   const Real t194 = t178 + t126 * t186;
-  const Real t202 = t168 * (t154 * t188 + t156 * t190 + t158 * t192 - t160 * t194);
+  const Real t202 = t168 * (t154 * t188 + t156 * t190 + (t158 * t192 - t160 * t194));
   const Real t204 = t188 - t154 * t202;
   const Real t206 = t190 - t156 * t202;
   const Real t208 = t192 - t158 * t202;
   const Real t210 = t194 + t160 * t202;
-  const Real t218 = Real(1.0) / (t204 * t204 + t206 * t206 + t208 * t208 + t210 * t210);
-  const Real t226 = t114 * (pin2ax2_y * pin2ax1_y - pin2ax2_x * pin2ax1_x + pin3ax2_y * pin3ax1_y - pin3ax2_x
-      * pin3ax1_x);
+  const Real t218 = Real(1.0) / (t204 * t204 + t206 * t206 + (t208 * t208 + t210 * t210));
+  const Real t226 = t114 * (pin2ax2_y * pin2ax1_y - pin2ax2_x * pin2ax1_x + (pin3ax2_y * pin3ax1_y - pin3ax2_x
+      * pin3ax1_x));
   const Real t228 = pin2ax1_y - pin2ax2_y * t226;
   const Real t230 = pin2ax1_x + pin2ax2_x * t226;
   const Real t232 = pin3ax1_y - pin3ax2_y * t226;
   const Real t234 = pin3ax1_x + pin3ax2_x * t226;
-  const Real t242 = t134 * (t120 * t228 + t122 * t230 + t124 * t232 + t126 * t234);
+  const Real t242 = t134 * (t120 * t228 + t122 * t230 + (t124 * t232 + t126 * t234));
   const Real t244 = t228 - t120 * t242;
   const Real t246 = t230 - t122 * t242;
   const Real t248 = t232 - t124 * t242;
   const Real t250 = t234 - t126 * t242;
-  const Real t258 = t168 * (t154 * t244 - t156 * t246 - t158 * t248 + t160 * t250);
-  const Real t274 = t218 * (t204 * (t244 - t154 * t258) - t206 * (t246 + t156 * t258) - t208 * (t248 + t158 *
-      t258) - t210 * (t250 - t160 * t258));
-  const Real t280 = t258 - t202 * t274;
-  const Real t284 = t242 - t186 * t274 - t152 * t280;
-  const Real t293 = t114 * (pin2ax2_y * pin2bx4_y - pin2ax2_x * pin2bx4_x);
+  const Real t258 = t168 * (t154 * t244 - t156 * t246 - (t158 * t248 - t160 * t250));
+  const Real t274 = t218 * (t204 * (t244 - t154 * t258) - t206 * (t246 + t156 * t258) - (t208 * (t248 + t158 *
+      t258) + t210 * (t250 - t160 * t258)));
+  const Real t278 = t258 - t202 * t274;
+  const Real t282 = t152 * t278 - (t242 - t186 * t274);
+  const Real t293 = t114 * (pin2ax2_y * pin2bx4_y + pin2ax2_x * pin2bx4_x);
   const Real t295 = pin2bx4_y - pin2ax2_y * t293;
-  const Real t297 = pin2bx4_x + pin2ax2_x * t293;
+  const Real t297 = pin2bx4_x - pin2ax2_x * t293;
   const Real t298 = pin3ax2_y * t293;
   const Real t299 = pin3ax2_x * t293;
-  const Real t307 = t134 * (t120 * t295 + t122 * t297 - t124 * t298 + t126 * t299);
+  const Real t307 = t134 * (t120 * t295 - t122 * t297 - (t124 * t298 - t126 * t299));
   const Real t309 = t295 - t120 * t307;
-  const Real t311 = t297 - t122 * t307;
+  const Real t311 = t297 + t122 * t307;
   const Real t313 = t298 + t124 * t307;
   const Real t315 = t299 - t126 * t307;
-  const Real t323 = t168 * (t154 * t309 - t156 * t311 + t158 * t313 + t160 * t315);
-  const Real t339 = t218 * (t204 * (t309 - t154 * t323) - t206 * (t311 + t156 * t323) + t208 * (t313 - t158 *
-      t323) - t210 * (t315 - t160 * t323));
-  const Real t345 = t323 - t202 * t339;
-  const Real t349 = t307 - t186 * t339 - t152 * t345;
-  const Real t360 = t114 * (pin3ax2_y * pin3bx6_y + pin3ax2_x * pin3bx6_x);
-  const Real t361 = pin2ax2_y * t360;
-  const Real t362 = pin2ax2_x * t360;
-  const Real t364 = pin3bx6_y - pin3ax2_y * t360;
-  const Real t366 = pin3bx6_x - pin3ax2_x * t360;
-  const Real t374 = t134 * (t120 * t361 - t122 * t362 - t124 * t364 + t126 * t366);
-  const Real t376 = t361 - t120 * t374;
-  const Real t378 = t362 + t122 * t374;
-  const Real t380 = t364 + t124 * t374;
-  const Real t382 = t366 - t126 * t374;
-  const Real t390 = t168 * (t154 * t376 + t156 * t378 + t158 * t380 + t160 * t382);
-  const Real t406 = t218 * (t204 * (t376 - t154 * t390) + t206 * (t378 - t156 * t390) + t208 * (t380 - t158 *
-      t390) - t210 * (t382 - t160 * t390));
-  const Real t412 = t390 - t202 * t406;
-  const Real t416 = t374 - t186 * t406 - t152 * t412;
-  const Real t421 = (t226 + t172 * t274 - t138 * t280 - t118 * t284) * state.z[0] + (t293 + t172 * t339 - t138
-      * t345 - t118 * t349) * state.z[1] + (t360 - t172 * t406 + t138 * t412 + t118 * t416) * state.z[2];
-  const Real t423 = t284 * state.z[0] + t349 * state.z[1] - t416 * state.z[2];
-  const Real w1_z = state.z[0] - t421;
-  const Real w2_z = t423 + w1_z;
+  const Real t323 = t168 * (t154 * t309 + t156 * t311 + (t158 * t313 + t160 * t315));
+  const Real t339 = t218 * (t204 * (t309 - t154 * t323) + t206 * (t311 - t156 * t323) + (t208 * (t313 - t158 *
+      t323) - t210 * (t315 - t160 * t323)));
+  const Real t343 = t323 - t202 * t339;
+  const Real t347 = t152 * t343 - (t307 - t186 * t339);
+  const Real t358 = t114 * (pin3ax2_y * pin3bx6_y + pin3ax2_x * pin3bx6_x);
+  const Real t359 = pin2ax2_y * t358;
+  const Real t360 = pin2ax2_x * t358;
+  const Real t362 = pin3bx6_y - pin3ax2_y * t358;
+  const Real t364 = pin3bx6_x - pin3ax2_x * t358;
+  const Real t372 = t134 * (t120 * t359 - t122 * t360 - (t124 * t362 - t126 * t364));
+  const Real t374 = t359 - t120 * t372;
+  const Real t376 = t360 + t122 * t372;
+  const Real t378 = t362 + t124 * t372;
+  const Real t380 = t364 - t126 * t372;
+  const Real t388 = t168 * (t154 * t374 + t156 * t376 + (t158 * t378 + t160 * t380));
+  const Real t404 = t218 * (t204 * (t374 - t154 * t388) + t206 * (t376 - t156 * t388) + (t208 * (t378 - t158 *
+      t388) - t210 * (t380 - t160 * t388)));
+  const Real t408 = t388 - t202 * t404;
+  const Real t412 = t152 * t408 - (t372 - t186 * t404);
+  const Real t420 = (t118 * t412 - (t138 * t408 + (t358 - t172 * t404))) * state.z[2] - ((t118 * t282 - (t138
+      * t278 - (t226 + t172 * t274))) * state.z[0] + (t118 * t347 - (t138 * t343 - (t293 + t172 * t339))) *
+      state.z[1]);
+  const Real t423 = t412 * state.z[2] - (t282 * state.z[0] + t347 * state.z[1]);
+  const Real w2_z = t420 + (state.z[0] + t423);
   const Real centerx_x = c2 * Real(0.06928203230275509) - s2 * Real(0.039999999999999994);
   const Real centerx_y = s2 * Real(0.06928203230275509) + c2 * Real(0.039999999999999994);
   const Real centerx2_x = r2_x + centerx_x;
@@ -1594,10 +1584,8 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
   const Real centerx0_y = centerx1_y - Real(0.17500000000000002);
   const Real centerv2_x = t423 * centerx_y;
   const Real centerv2_y = t423 * centerx_x;
-  const Real centerv1_x = centerv2_x + t421 * centerx2_y;
-  const Real centerv1_y = centerv2_y - t421 * centerx2_x;
-  const Real centerv0_x = centerv1_x - state.z[0] * centerx1_y;
-  const Real centerv0_y = centerv1_y - state.z[0] * centerx1_x;
+  const Real centerv0_x = t420 * centerx2_y - (centerv2_x - state.z[0] * centerx1_y);
+  const Real centerv0_y = t420 * centerx2_x + (centerv2_y - state.z[0] * centerx1_x);
   const Real t453 = -c2;
   result.platform_pose.position[0] = centerx0_x;
   result.platform_pose.position[1] = centerx0_y;
@@ -1611,7 +1599,7 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
   result.platform_pose.rotation[2][0] = Real(0.0);
   result.platform_pose.rotation[2][1] = Real(0.0);
   result.platform_pose.rotation[2][2] = Real(1.0);
-  result.platform_velocity.v[0] = centerv0_x;
+  result.platform_velocity.v[0] = -centerv0_x;
   result.platform_velocity.v[1] = -centerv0_y;
   result.platform_velocity.v[2] = Real(0.0);
   result.platform_velocity.omega[0] = Real(0.0);
@@ -1644,14 +1632,14 @@ void close_loops(const Model<Real>&, State<Real>& state) noexcept {
   const Real pin2ax_x = c2 * Real(0.13856406460551018) - s2 * Real(1.0546217409559561e-17);
   const Real pin2ax2_x = r2_x + pin2ax_x;
   const Real pin2bx_x = c4 * Real(0.19485571585149872) - s4 * Real(0.11249999999999999);
-  const Real pin2d_x = pin2ax2_x - (r1_x + (r4_x - pin2bx_x)) + Real(0.6062177826491069);
+  const Real pin2d_x = pin2ax2_x + (pin2bx_x - (r4_x + (r1_x - Real(0.6062177826491069))));
   const Real r1_y = s0 * Real(0.19485571585149872) + c0 * Real(0.11249999999999999);
   const Real r2_y = s1 * Real(0.19485571585149872) - c1 * Real(0.11249999999999999);
   const Real r4_y = s3 * Real(0.19485571585149872) - c3 * Real(0.11249999999999999);
   const Real pin2ax_y = s2 * Real(0.13856406460551018) + c2 * Real(1.0546217409559561e-17);
   const Real pin2ax2_y = r2_y + pin2ax_y;
   const Real pin2bx_y = s4 * Real(0.19485571585149872) + c4 * Real(0.11249999999999999);
-  const Real pin2d_y = pin2ax2_y + (r1_y + (r4_y + pin2bx_y)) + Real(1.3877787807814457e-16);
+  const Real pin2d_y = pin2ax2_y + (pin2bx_y + (r4_y + (r1_y + Real(1.3877787807814457e-16))));
   Real s5, c5;
   detail::sine_cosine(state.y[5], s5, c5);
   Real t85, t86;
@@ -1663,61 +1651,63 @@ void close_loops(const Model<Real>&, State<Real>& state) noexcept {
   const Real pin3ax2_x = r2_x + pin3ax_x;
   const Real pin3bx_x = s6 * Real(0.225);
   const Real t103 = r1_x - Real(0.3031088913245535);
-  const Real pin3d_x = pin3bx_x + (r6_x + (pin3ax2_x - t103)) + Real(2.143131898507868e-17);
+  const Real t105 = r6_x + Real(2.143131898507868e-17);
+  const Real pin3d_x = pin3ax2_x - (t103 - (pin3bx_x + t105));
   const Real r6_y = c5 * Real(0.225);
   const Real pin3ax_y = s2 * Real(0.06928203230275509) - c2 * Real(0.12);
   const Real pin3ax2_y = r2_y + pin3ax_y;
   const Real pin3bx_y = c6 * Real(0.225);
   const Real t116 = r1_y - Real(0.17500000000000002);
-  const Real pin3d_y = pin3bx_y - (r6_y + (pin3ax2_y + t116)) + Real(0.35);
-  const Real t130 = Real(1.0) / (pin3ax2_x * pin3ax2_x + (pin3ax2_y * pin3ax2_y + (pin2ax2_y * pin2ax2_y +
-      pin2ax2_x * pin2ax2_x)));
+  const Real t118 = r6_y - Real(0.35);
+  const Real pin3d_y = pin3ax2_y + (t116 - (pin3bx_y - t118));
+  const Real t130 = Real(1.0) / (pin2ax2_y * pin2ax2_y + pin2ax2_x * pin2ax2_x + (pin3ax2_y * pin3ax2_y +
+      pin3ax2_x * pin3ax2_x));
   const Real t134 = t130 * Real(0.031425) - Real(0.5);
   const Real t136 = pin2ax_y + pin2ax2_y * t134;
   const Real t138 = pin2ax_x + pin2ax2_x * t134;
   const Real t140 = pin3ax_y + pin3ax2_y * t134;
   const Real t142 = pin3ax_x + pin3ax2_x * t134;
-  const Real t150 = Real(1.0) / (t142 * t142 + (t140 * t140 + (t136 * t136 + t138 * t138)));
+  const Real t150 = Real(1.0) / (t136 * t136 + t138 * t138 + (t140 * t140 + t142 * t142));
   const Real t154 = t130 * (pin2ax2_y * pin2bx_y + pin2ax2_x * pin2bx_x);
   const Real t156 = pin2bx_y - pin2ax2_y * t154;
   const Real t158 = pin2bx_x - pin2ax2_x * t154;
   const Real t159 = pin3ax2_y * t154;
   const Real t160 = pin3ax2_x * t154;
-  const Real t168 = t150 * (t142 * t160 + (t140 * t159 - (t136 * t156 + t138 * t158)));
-  const Real t170 = t156 + t136 * t168;
-  const Real t172 = t158 + t138 * t168;
-  const Real t174 = t159 - t140 * t168;
-  const Real t176 = t160 - t142 * t168;
-  const Real t184 = Real(1.0) / (t176 * t176 + (t174 * t174 + (t170 * t170 + t172 * t172)));
+  const Real t168 = t150 * (t136 * t156 + t138 * t158 - (t140 * t159 + t142 * t160));
+  const Real t170 = t156 - t136 * t168;
+  const Real t172 = t158 - t138 * t168;
+  const Real t174 = t159 + t140 * t168;
+  const Real t176 = t160 + t142 * t168;
+  const Real t184 = Real(1.0) / (t170 * t170 + t172 * t172 + (t174 * t174 + t176 * t176));
   const Real t188 = t130 * (pin3ax2_y * pin3bx_y - pin3ax2_x * pin3bx_x);
   const Real t189 = pin2ax2_y * t188;
   const Real t190 = pin2ax2_x * t188;
   const Real t192 = pin3bx_y - pin3ax2_y * t188;
   const Real t194 = pin3bx_x + pin3ax2_x * t188;
-  const Real t202 = t150 * (t142 * t194 - (t140 * t192 - (t136 * t189 + t138 * t190)));
+  const Real t202 = t150 * (t136 * t189 + t138 * t190 - (t140 * t192 - t142 * t194));
   const Real t204 = t189 - t136 * t202;
   const Real t206 = t190 - t138 * t202;
   const Real t208 = t192 + t140 * t202;
   const Real t210 = t194 - t142 * t202;
-  const Real t218 = t184 * (t176 * t210 - (t174 * t208 + (t170 * t204 + t172 * t206)));
-  const Real t220 = t204 + t170 * t218;
-  const Real t222 = t206 + t172 * t218;
-  const Real t224 = t208 + t174 * t218;
-  const Real t226 = t210 - t176 * t218;
-  const Real t241 = t130 * (pin3ax2_x * pin3d_y + (pin3d_x * pin3ax2_y + (pin2d_x * pin2ax2_y - pin2ax2_x *
-      pin2d_y)));
+  const Real t218 = t184 * (t170 * t204 + t172 * t206 + (t174 * t208 - t176 * t210));
+  const Real t220 = t204 - t170 * t218;
+  const Real t222 = t206 - t172 * t218;
+  const Real t224 = t208 - t174 * t218;
+  const Real t226 = t210 + t176 * t218;
+  const Real t241 = t130 * (pin2d_x * pin2ax2_y - pin2ax2_x * pin2d_y + (pin3d_x * pin3ax2_y - pin3ax2_x *
+      pin3d_y));
   const Real t243 = pin2d_x - pin2ax2_y * t241;
   const Real t245 = pin2d_y + pin2ax2_x * t241;
   const Real t247 = pin3d_x - pin3ax2_y * t241;
-  const Real t249 = pin3d_y - pin3ax2_x * t241;
-  const Real t257 = t150 * (t142 * t249 + (t140 * t247 + (t136 * t243 - t138 * t245)));
+  const Real t249 = pin3d_y + pin3ax2_x * t241;
+  const Real t257 = t150 * (t136 * t243 - t138 * t245 + (t140 * t247 - t142 * t249));
   const Real t259 = t243 - t136 * t257;
   const Real t261 = t245 + t138 * t257;
   const Real t263 = t247 - t140 * t257;
-  const Real t265 = t249 - t142 * t257;
-  const Real t273 = t184 * (t176 * t265 + (t174 * t263 - (t170 * t259 - t172 * t261)));
-  const Real t289 = (t226 * (t265 - t176 * t273) - (t224 * (t263 - t174 * t273) - (t220 * (t259 + t170 * t273)
-      - t222 * (t261 - t172 * t273)))) / (t226 * t226 + (t224 * t224 + (t220 * t220 + t222 * t222)));
+  const Real t265 = t249 + t142 * t257;
+  const Real t273 = t184 * (t170 * t259 - t172 * t261 - (t174 * t263 - t176 * t265));
+  const Real t289 = (t220 * (t259 - t170 * t273) - t222 * (t261 + t172 * t273) - (t224 * (t263 + t174 * t273)
+      + t226 * (t265 - t176 * t273))) / (t220 * t220 + t222 * t222 + (t224 * t224 + t226 * t226));
   const Real t290 = t188 * t289;
   const Real t291 = t202 * t289;
   const Real t292 = t218 * t289;
@@ -1726,7 +1716,7 @@ void close_loops(const Model<Real>&, State<Real>& state) noexcept {
   const Real t295 = t168 * t293;
   const Real t297 = t295 - (t257 - t291);
   const Real t298 = t134 * t297;
-  const Real t301 = t298 - (t294 + (t241 + t290));
+  const Real t301 = t298 + (t294 - (t241 + t290));
   Real t309, t310;
   detail::sine_cosine(t241, t309, t310);
   Real t311, t312;
@@ -1735,8 +1725,8 @@ void close_loops(const Model<Real>&, State<Real>& state) noexcept {
   const Real t318 = t309 * t311 - t310 * t312;
   Real t319, t320;
   detail::sine_cosine(t294, t319, t320);
-  const Real t323 = t318 * t319 - t315 * t320;
-  const Real t326 = t315 * t319 + t318 * t320;
+  const Real t323 = t318 * t319 + t315 * t320;
+  const Real t326 = t315 * t319 - t318 * t320;
   Real t327, t328;
   detail::sine_cosine(t298, t327, t328);
   const Real t331 = t326 * t327 - t323 * t328;
@@ -1766,19 +1756,19 @@ void close_loops(const Model<Real>&, State<Real>& state) noexcept {
   detail::sine_cosine(t292, t382, t383);
   const Real t386 = t381 * t382 - t380 * t383;
   const Real t389 = t380 * t382 + t381 * t383;
-  const Real t392 = t36 * t386 - t35 * t389;
-  const Real t395 = t35 * t386 + t36 * t389;
+  const Real t392 = t36 * t386 + t35 * t389;
+  const Real t395 = t35 * t386 - t36 * t389;
   const Real s4_2 = c3 * t392 - s3 * t395;
   const Real c4_2 = s3 * t392 + c3 * t395;
   const Real pin2ax_x_2 = Real(0.13856406460551018) * c2_2 + Real(1.0546217409559561e-17) * s2_2;
   const Real pin2ax2_x_2 = r2_x_2 + pin2ax_x_2;
   const Real pin2bx_x_2 = Real(0.19485571585149872) * c4_2 - Real(0.11249999999999999) * s4_2;
-  const Real pin2d_x_2 = pin2bx_x_2 + (r4_x + (t103 + pin2ax2_x_2 - Real(0.30310889132455343)));
+  const Real pin2d_x_2 = pin2ax2_x_2 + (pin2bx_x_2 - (t103 + (r4_x - Real(0.30310889132455343))));
   const Real r2_y_2 = Real(0.19485571585149872) * s1_2 - Real(0.11249999999999999) * c1_2;
   const Real pin2ax_y_2 = Real(0.13856406460551018) * s2_2 - Real(1.0546217409559561e-17) * c2_2;
   const Real pin2ax2_y_2 = r2_y_2 - pin2ax_y_2;
   const Real pin2bx_y_2 = Real(0.19485571585149872) * s4_2 + Real(0.11249999999999999) * c4_2;
-  const Real pin2d_y_2 = pin2bx_y_2 - (r4_y + (t116 - pin2ax2_y_2 + Real(0.17500000000000016)));
+  const Real pin2d_y_2 = pin2ax2_y_2 + (pin2bx_y_2 + (t116 + (r4_y + Real(0.17500000000000016))));
   Real t429, t430;
   detail::sine_cosine(t289, t429, t430);
   const Real t433 = t86 * t429 - t85 * t430;
@@ -1788,68 +1778,68 @@ void close_loops(const Model<Real>&, State<Real>& state) noexcept {
   const Real pin3ax_x_2 = Real(0.06928203230275509) * c2_2 - Real(0.12) * s2_2;
   const Real pin3ax2_x_2 = r2_x_2 + pin3ax_x_2;
   const Real pin3bx_x_2 = Real(0.225) * s6_2;
-  const Real pin3d_x_2 = pin3bx_x_2 - (r6_x + (Real(2.143131898507868e-17) - (t103 + pin3ax2_x_2)));
+  const Real pin3d_x_2 = pin3ax2_x_2 - (pin3bx_x_2 + (t103 - t105));
   const Real pin3ax_y_2 = Real(0.06928203230275509) * s2_2 + Real(0.12) * c2_2;
   const Real pin3ax2_y_2 = r2_y_2 - pin3ax_y_2;
   const Real pin3bx_y_2 = Real(0.225) * c6_2;
-  const Real pin3d_y_2 = pin3bx_y_2 + (r6_y - (Real(0.35) - (t116 - pin3ax2_y_2)));
-  const Real t468 = Real(1.0) / (pin3ax2_x_2 * pin3ax2_x_2 + (pin3ax2_y_2 * pin3ax2_y_2 + (pin2ax2_y_2 *
-      pin2ax2_y_2 + pin2ax2_x_2 * pin2ax2_x_2)));
-  const Real t470 = Real(0.5) - Real(0.031425) * t468;
-  const Real t472 = pin2ax_y_2 + pin2ax2_y_2 * t470;
-  const Real t474 = pin2ax_x_2 - pin2ax2_x_2 * t470;
-  const Real t476 = pin3ax_y_2 + pin3ax2_y_2 * t470;
-  const Real t478 = pin3ax_x_2 - pin3ax2_x_2 * t470;
-  const Real t486 = Real(1.0) / (t478 * t478 + (t476 * t476 + (t472 * t472 + t474 * t474)));
-  const Real t490 = t468 * (pin2ax2_y_2 * pin2bx_y_2 + pin2ax2_x_2 * pin2bx_x_2);
-  const Real t492 = pin2bx_y_2 - pin2ax2_y_2 * t490;
-  const Real t494 = pin2bx_x_2 - pin2ax2_x_2 * t490;
-  const Real t495 = pin3ax2_y_2 * t490;
-  const Real t496 = pin3ax2_x_2 * t490;
-  const Real t504 = t486 * (t478 * t496 - (t476 * t495 - (t472 * t492 - t474 * t494)));
-  const Real t506 = t492 - t472 * t504;
-  const Real t508 = t494 + t474 * t504;
-  const Real t510 = t495 + t476 * t504;
-  const Real t512 = t496 - t478 * t504;
-  const Real t520 = Real(1.0) / (t512 * t512 + (t510 * t510 + (t506 * t506 + t508 * t508)));
-  const Real t524 = t468 * (pin3ax2_y_2 * pin3bx_y_2 - pin3ax2_x_2 * pin3bx_x_2);
-  const Real t525 = pin2ax2_y_2 * t524;
-  const Real t526 = pin2ax2_x_2 * t524;
-  const Real t528 = pin3bx_y_2 - pin3ax2_y_2 * t524;
-  const Real t530 = pin3bx_x_2 + pin3ax2_x_2 * t524;
-  const Real t538 = t486 * (t478 * t530 + (t476 * t528 - (t472 * t525 - t474 * t526)));
-  const Real t540 = t525 + t472 * t538;
-  const Real t542 = t526 - t474 * t538;
-  const Real t544 = t528 - t476 * t538;
-  const Real t546 = t530 - t478 * t538;
-  const Real t554 = t520 * (t512 * t546 - (t510 * t544 + (t506 * t540 + t508 * t542)));
-  const Real t556 = t540 + t506 * t554;
-  const Real t558 = t542 + t508 * t554;
-  const Real t560 = t544 + t510 * t554;
-  const Real t562 = t546 - t512 * t554;
-  const Real t570 = Real(1.0) / (t562 * t562 + (t560 * t560 + (t556 * t556 + t558 * t558)));
-  const Real t578 = t468 * (pin3ax2_x_2 * pin3d_y_2 + (pin3d_x_2 * pin3ax2_y_2 + (pin2d_x_2 * pin2ax2_y_2 -
-      pin2ax2_x_2 * pin2d_y_2)));
-  const Real t580 = pin2d_x_2 - pin2ax2_y_2 * t578;
-  const Real t582 = pin2d_y_2 + pin2ax2_x_2 * t578;
-  const Real t584 = pin3d_x_2 - pin3ax2_y_2 * t578;
-  const Real t586 = pin3d_y_2 - pin3ax2_x_2 * t578;
-  const Real t594 = t486 * (t478 * t586 - (t476 * t584 + (t472 * t580 + t474 * t582)));
-  const Real t596 = t580 + t472 * t594;
-  const Real t598 = t582 + t474 * t594;
-  const Real t600 = t584 + t476 * t594;
-  const Real t602 = t586 - t478 * t594;
-  const Real t610 = t520 * (t512 * t602 + (t510 * t600 - (t506 * t596 - t508 * t598)));
-  const Real t626 = t570 * (t562 * (t602 - t512 * t610) - (t560 * (t600 - t510 * t610) - (t556 * (t596 + t506
-      * t610) - t558 * (t598 - t508 * t610))));
-  const Real t630 = t610 - t554 * t626;
-  const Real t634 = t504 * t630 - (t594 - t538 * t626);
-  closed.regularity = Real(1.0) / (t570 * (t520 * (t468 * t486))) * Real(206898.60562145393);
-  closed.opening = t289 * t289 + (t293 * t293 + (t301 * t301 + t297 * t297));
-  closed.y[1] = -(t470 * t634 + (t490 * t630 + (t524 * t626 + (t578 - (state.y[1] + t301)))));
-  closed.y[2] = t634 + (state.y[2] + t297);
-  closed.y[4] = t630 + (state.y[4] + t293);
-  closed.y[6] = -(t626 - (state.y[6] - t289));
+  const Real pin3d_y_2 = pin3ax2_y_2 + (pin3bx_y_2 + (t116 + t118));
+  const Real t466 = Real(1.0) / (pin2ax2_y_2 * pin2ax2_y_2 + pin2ax2_x_2 * pin2ax2_x_2 + (pin3ax2_y_2 *
+      pin3ax2_y_2 + pin3ax2_x_2 * pin3ax2_x_2));
+  const Real t468 = Real(0.5) - Real(0.031425) * t466;
+  const Real t470 = pin2ax_y_2 + pin2ax2_y_2 * t468;
+  const Real t472 = pin2ax_x_2 - pin2ax2_x_2 * t468;
+  const Real t474 = pin3ax_y_2 + pin3ax2_y_2 * t468;
+  const Real t476 = pin3ax_x_2 - pin3ax2_x_2 * t468;
+  const Real t484 = Real(1.0) / (t470 * t470 + t472 * t472 + (t474 * t474 + t476 * t476));
+  const Real t488 = t466 * (pin2ax2_y_2 * pin2bx_y_2 + pin2ax2_x_2 * pin2bx_x_2);
+  const Real t490 = pin2bx_y_2 - pin2ax2_y_2 * t488;
+  const Real t492 = pin2bx_x_2 - pin2ax2_x_2 * t488;
+  const Real t493 = pin3ax2_y_2 * t488;
+  const Real t494 = pin3ax2_x_2 * t488;
+  const Real t502 = t484 * (t470 * t490 - t472 * t492 - (t474 * t493 - t476 * t494));
+  const Real t504 = t490 - t470 * t502;
+  const Real t506 = t492 + t472 * t502;
+  const Real t508 = t493 + t474 * t502;
+  const Real t510 = t494 - t476 * t502;
+  const Real t518 = Real(1.0) / (t504 * t504 + t506 * t506 + (t508 * t508 + t510 * t510));
+  const Real t522 = t466 * (pin3ax2_y_2 * pin3bx_y_2 - pin3ax2_x_2 * pin3bx_x_2);
+  const Real t523 = pin2ax2_y_2 * t522;
+  const Real t524 = pin2ax2_x_2 * t522;
+  const Real t526 = pin3bx_y_2 - pin3ax2_y_2 * t522;
+  const Real t528 = pin3bx_x_2 + pin3ax2_x_2 * t522;
+  const Real t536 = t484 * (t470 * t523 - t472 * t524 - (t474 * t526 + t476 * t528));
+  const Real t538 = t523 - t470 * t536;
+  const Real t540 = t524 + t472 * t536;
+  const Real t542 = t526 + t474 * t536;
+  const Real t544 = t528 + t476 * t536;
+  const Real t552 = t518 * (t504 * t538 + t506 * t540 + (t508 * t542 - t510 * t544));
+  const Real t554 = t538 - t504 * t552;
+  const Real t556 = t540 - t506 * t552;
+  const Real t558 = t542 - t508 * t552;
+  const Real t560 = t544 + t510 * t552;
+  const Real t568 = Real(1.0) / (t554 * t554 + t556 * t556 + (t558 * t558 + t560 * t560));
+  const Real t576 = t466 * (pin2d_x_2 * pin2ax2_y_2 - pin2ax2_x_2 * pin2d_y_2 + (pin3d_x_2 * pin3ax2_y_2 -
+      pin3ax2_x_2 * pin3d_y_2));
+  const Real t578 = pin2d_x_2 - pin2ax2_y_2 * t576;
+  const Real t580 = pin2d_y_2 + pin2ax2_x_2 * t576;
+  const Real t582 = pin3d_x_2 - pin3ax2_y_2 * t576;
+  const Real t584 = pin3d_y_2 + pin3ax2_x_2 * t576;
+  const Real t592 = t484 * (t470 * t578 + t472 * t580 + (t474 * t582 + t476 * t584));
+  const Real t594 = t578 - t470 * t592;
+  const Real t596 = t580 - t472 * t592;
+  const Real t598 = t582 - t474 * t592;
+  const Real t600 = t584 - t476 * t592;
+  const Real t608 = t518 * (t504 * t594 - t506 * t596 - (t508 * t598 - t510 * t600));
+  const Real t624 = t568 * (t554 * (t594 - t504 * t608) - t556 * (t596 + t506 * t608) - (t558 * (t598 + t508 *
+      t608) + t560 * (t600 - t510 * t608)));
+  const Real t628 = t608 - t552 * t624;
+  const Real t632 = t502 * t628 - (t592 - t536 * t624);
+  closed.regularity = Real(1.0) / (t568 * (t518 * (t466 * t484))) * Real(206898.60562145393);
+  closed.opening = t301 * t301 + (t297 * t297 + (t293 * t293 + t289 * t289));
+  closed.y[1] = t468 * t632 + (t488 * t628 - (t522 * t624 + (t576 - (state.y[1] + t301))));
+  closed.y[2] = -(t632 - (state.y[2] + t297));
+  closed.y[4] = -(t628 - (state.y[4] - t293));
+  closed.y[6] = t624 + (state.y[6] - t289);
   state = closed;
 }
 
@@ -1869,21 +1859,21 @@ void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)
   const Real t43 = c0 - c1;
   const Real t46 = s0 + s1;
   const Real t49 = t43 * Real(0.19485571585149872) - t46 * Real(0.11249999999999999);
-  const Real pin2d_x = t49 - (c2 * Real(0.13856406460551018) + (s2 * Real(1.0546217409559561e-17) - (t36 *
-      Real(0.19485571585149872) + t40 * Real(0.11249999999999999) - Real(0.6062177826491069))));
+  const Real pin2d_x = s2 * Real(1.0546217409559561e-17) - t49 - (t36 * Real(0.19485571585149872) -
+      Real(0.6062177826491069) - (c2 * Real(0.13856406460551018) - t40 * Real(0.11249999999999999)));
   const Real t62 = Real(0.19485571585149872) * t46 + t43 * Real(0.11249999999999999);
-  const Real pin2d_y = t62 - (s2 * Real(0.13856406460551018) - (c2 * Real(1.0546217409559561e-17) +
-      (Real(0.19485571585149872) * t40 - t36 * Real(0.11249999999999999) + Real(1.3877787807814457e-16))));
+  const Real pin2d_y = c2 * Real(1.0546217409559561e-17) + t62 + (Real(0.19485571585149872) * t40 +
+      Real(1.3877787807814457e-16) - (s2 * Real(0.13856406460551018) + t36 * Real(0.11249999999999999)));
   Real t73, t74;
   detail::sine_cosine(state.y[6], t73, t74);
-  const Real pin3d_x = c2 * Real(0.06928203230275509) - (t49 + (s2 * Real(0.12) - ((s5 * t74 + (s5 + c5 *
-      t73)) * Real(0.225) + Real(0.3031088913245535))));
-  const Real pin3d_y = s2 * Real(0.06928203230275509) - (t62 - (c2 * Real(0.12) - (Real(0.225) * (c5 * t74 +
-      (c5 - s5 * t73)) - Real(0.525))));
-  g[0] = -pin2d_x;
+  const Real pin3d_x = t49 - c2 * Real(0.06928203230275509) + (s2 * Real(0.12) - ((s5 * t74 + (s5 + c5 * t73))
+      * Real(0.225) + Real(0.3031088913245535)));
+  const Real pin3d_y = t62 - s2 * Real(0.06928203230275509) - (c2 * Real(0.12) - (Real(0.225) * (c5 * t74 +
+      (c5 - s5 * t73)) - Real(0.525)));
+  g[0] = pin2d_x;
   g[1] = -pin2d_y;
-  g[2] = pin3d_x;
-  g[3] = pin3d_y;
+  g[2] = -pin3d_x;
+  g[3] = -pin3d_y;
   g_rate[0] = Real(0.0);
   g_rate[1] = Real(0.0);
   g_rate[2] = Real(0.0);
@@ -1935,130 +1925,132 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real pin3ax1_y = r1_y + pin3ax2_y;
   const Real pin3bx_y = c6 * Real(0.225);
   const Real pin3bx6_y = r6_y - pin3bx_y;
-  const Real t114 = Real(1.0) / (pin3ax2_x * pin3ax2_x + (pin3ax2_y * pin3ax2_y + (pin2ax2_y * pin2ax2_y +
-      pin2ax2_x * pin2ax2_x)));
+  const Real t114 = Real(1.0) / (pin2ax2_y * pin2ax2_y + pin2ax2_x * pin2ax2_x + (pin3ax2_y * pin3ax2_y +
+      pin3ax2_x * pin3ax2_x));
   const Real t118 = t114 * Real(0.031425) - Real(0.5);
   const Real t120 = pin2ax_y - pin2ax2_y * t118;
   const Real t122 = pin2ax_x + pin2ax2_x * t118;
   const Real t124 = pin3ax_y - pin3ax2_y * t118;
   const Real t126 = pin3ax_x + pin3ax2_x * t118;
-  const Real t134 = Real(1.0) / (t126 * t126 + (t124 * t124 + (t120 * t120 + t122 * t122)));
+  const Real t134 = Real(1.0) / (t120 * t120 + t122 * t122 + (t124 * t124 + t126 * t126));
   const Real t138 = t114 * (pin2ax2_y * pin2bx_y + pin2ax2_x * pin2bx_x);
   const Real t140 = pin2bx_y - pin2ax2_y * t138;
   const Real t142 = pin2bx_x - pin2ax2_x * t138;
   const Real t143 = pin3ax2_y * t138;
   const Real t144 = pin3ax2_x * t138;
-  const Real t152 = t134 * (t126 * t144 - (t124 * t143 - (t120 * t140 - t122 * t142)));
+  const Real t152 = t134 * (t120 * t140 - t122 * t142 - (t124 * t143 - t126 * t144));
   const Real t154 = t140 - t120 * t152;
   const Real t156 = t142 + t122 * t152;
   const Real t158 = t143 + t124 * t152;
   const Real t160 = t144 - t126 * t152;
-  const Real t168 = Real(1.0) / (t160 * t160 + (t158 * t158 + (t154 * t154 + t156 * t156)));
+  const Real t168 = Real(1.0) / (t154 * t154 + t156 * t156 + (t158 * t158 + t160 * t160));
   const Real t172 = t114 * (pin3ax2_y * pin3bx_y - pin3ax2_x * pin3bx_x);
   const Real t173 = pin2ax2_y * t172;
   const Real t174 = pin2ax2_x * t172;
   const Real t176 = pin3bx_y - pin3ax2_y * t172;
   const Real t178 = pin3bx_x + pin3ax2_x * t172;
-  const Real t186 = t134 * (t126 * t178 + (t124 * t176 - (t120 * t173 - t122 * t174)));
-  const Real t188 = t173 + t120 * t186;
-  const Real t190 = t174 - t122 * t186;
-  const Real t192 = t176 - t124 * t186;
-  const Real t194 = t178 - t126 * t186;
-  const Real t202 = t168 * (t160 * t194 - (t158 * t192 + (t154 * t188 + t156 * t190)));
-  const Real t204 = t188 + t154 * t202;
-  const Real t206 = t190 + t156 * t202;
-  const Real t208 = t192 + t158 * t202;
-  const Real t210 = t194 - t160 * t202;
-  const Real t218 = Real(1.0) / (t210 * t210 + (t208 * t208 + (t204 * t204 + t206 * t206)));
-  const Real t226 = t114 * (pin3ax2_x * pin3ax1_x - (pin3ax2_y * pin3ax1_y + (pin2ax2_y * pin2ax1_y -
-      pin2ax2_x * pin2ax1_x)));
-  const Real t228 = pin2ax1_y + pin2ax2_y * t226;
-  const Real t230 = pin2ax1_x - pin2ax2_x * t226;
-  const Real t232 = pin3ax1_y + pin3ax2_y * t226;
-  const Real t234 = pin3ax1_x - pin3ax2_x * t226;
-  const Real t242 = t134 * (t126 * t234 + (t124 * t232 + (t120 * t228 + t122 * t230)));
+  const Real t186 = t134 * (t120 * t173 - t122 * t174 - (t124 * t176 + t126 * t178));
+  const Real t188 = t173 - t120 * t186;
+  const Real t190 = t174 + t122 * t186;
+  const Real t192 = t176 + t124 * t186;
+  const Real t194 = t178 + t126 * t186;
+  const Real t202 = t168 * (t154 * t188 + t156 * t190 + (t158 * t192 - t160 * t194));
+  const Real t204 = t188 - t154 * t202;
+  const Real t206 = t190 - t156 * t202;
+  const Real t208 = t192 - t158 * t202;
+  const Real t210 = t194 + t160 * t202;
+  const Real t218 = Real(1.0) / (t204 * t204 + t206 * t206 + (t208 * t208 + t210 * t210));
+  const Real t226 = t114 * (pin2ax2_y * pin2ax1_y - pin2ax2_x * pin2ax1_x + (pin3ax2_y * pin3ax1_y - pin3ax2_x
+      * pin3ax1_x));
+  const Real t228 = pin2ax1_y - pin2ax2_y * t226;
+  const Real t230 = pin2ax1_x + pin2ax2_x * t226;
+  const Real t232 = pin3ax1_y - pin3ax2_y * t226;
+  const Real t234 = pin3ax1_x + pin3ax2_x * t226;
+  const Real t242 = t134 * (t120 * t228 + t122 * t230 + (t124 * t232 + t126 * t234));
   const Real t244 = t228 - t120 * t242;
   const Real t246 = t230 - t122 * t242;
   const Real t248 = t232 - t124 * t242;
   const Real t250 = t234 - t126 * t242;
-  const Real t258 = t168 * (t160 * t250 - (t158 * t248 - (t154 * t244 - t156 * t246)));
-  const Real t274 = t218 * (t210 * (t250 - t160 * t258) + (t208 * (t248 + t158 * t258) - (t204 * (t244 - t154
-      * t258) - t206 * (t246 + t156 * t258))));
+  const Real t258 = t168 * (t154 * t244 - t156 * t246 - (t158 * t248 - t160 * t250));
+  const Real t274 = t218 * (t204 * (t244 - t154 * t258) - t206 * (t246 + t156 * t258) - (t208 * (t248 + t158 *
+      t258) + t210 * (t250 - t160 * t258)));
   const Real t278 = t258 - t202 * t274;
   const Real t282 = t152 * t278 - (t242 - t186 * t274);
-  const Real t286 = t118 * t282 - (t138 * t278 + (t226 + t172 * t274));
+  const Real t286 = t118 * t282 - (t138 * t278 - (t226 + t172 * t274));
   const Real t295 = t114 * (pin2ax2_y * pin2bx4_y - pin2ax2_x * pin2bx4_x);
   const Real t297 = pin2bx4_y - pin2ax2_y * t295;
   const Real t299 = pin2bx4_x + pin2ax2_x * t295;
   const Real t300 = pin3ax2_y * t295;
   const Real t301 = pin3ax2_x * t295;
-  const Real t309 = t134 * (t126 * t301 - (t124 * t300 - (t120 * t297 + t122 * t299)));
+  const Real t309 = t134 * (t120 * t297 + t122 * t299 - (t124 * t300 - t126 * t301));
   const Real t311 = t297 - t120 * t309;
   const Real t313 = t299 - t122 * t309;
   const Real t315 = t300 + t124 * t309;
   const Real t317 = t301 - t126 * t309;
-  const Real t325 = t168 * (t160 * t317 + (t158 * t315 + (t154 * t311 - t156 * t313)));
-  const Real t341 = t218 * (t210 * (t317 - t160 * t325) - (t208 * (t315 - t158 * t325) + (t204 * (t311 - t154
-      * t325) - t206 * (t313 + t156 * t325))));
+  const Real t325 = t168 * (t154 * t311 - t156 * t313 + (t158 * t315 + t160 * t317));
+  const Real t341 = t218 * (t204 * (t311 - t154 * t325) - t206 * (t313 + t156 * t325) + (t208 * (t315 - t158 *
+      t325) - t210 * (t317 - t160 * t325)));
   const Real t345 = t325 - t202 * t341;
   const Real t349 = t152 * t345 - (t309 - t186 * t341);
-  const Real t353 = t118 * t349 - (t138 * t345 - (t295 - t172 * t341));
+  const Real t353 = t118 * t349 - (t138 * t345 - (t295 + t172 * t341));
   const Real t362 = t114 * (pin3ax2_y * pin3bx6_y + pin3ax2_x * pin3bx6_x);
   const Real t363 = pin2ax2_y * t362;
   const Real t364 = pin2ax2_x * t362;
   const Real t366 = pin3bx6_y - pin3ax2_y * t362;
   const Real t368 = pin3bx6_x - pin3ax2_x * t362;
-  const Real t376 = t134 * (t126 * t368 - (t124 * t366 - (t120 * t363 - t122 * t364)));
+  const Real t376 = t134 * (t120 * t363 - t122 * t364 - (t124 * t366 - t126 * t368));
   const Real t378 = t363 - t120 * t376;
   const Real t380 = t364 + t122 * t376;
   const Real t382 = t366 + t124 * t376;
   const Real t384 = t368 - t126 * t376;
-  const Real t392 = t168 * (t160 * t384 + (t158 * t382 + (t154 * t378 + t156 * t380)));
-  const Real t408 = t218 * (t210 * (t384 - t160 * t392) - (t208 * (t382 - t158 * t392) + (t204 * (t378 - t154
-      * t392) + t206 * (t380 - t156 * t392))));
+  const Real t392 = t168 * (t154 * t378 + t156 * t380 + (t158 * t382 + t160 * t384));
+  const Real t408 = t218 * (t204 * (t378 - t154 * t392) + t206 * (t380 - t156 * t392) + (t208 * (t382 - t158 *
+      t392) - t210 * (t384 - t160 * t392)));
   const Real t412 = t392 - t202 * t408;
   const Real t416 = t152 * t412 - (t376 - t186 * t408);
-  const Real t420 = t118 * t416 - (t138 * t412 + (t362 + t172 * t408));
+  const Real t420 = t118 * t416 - (t138 * t412 + (t362 - t172 * t408));
   const Real t424 = t420 * state.z[2] - (t286 * state.z[0] + t353 * state.z[1]);
   const Real t427 = t416 * state.z[2] - (t282 * state.z[0] + t349 * state.z[1]);
   const Real t430 = t412 * state.z[2] - (t278 * state.z[0] + t345 * state.z[1]);
   const Real t433 = t408 * state.z[2] - (t274 * state.z[0] + t341 * state.z[1]);
-  const Real t434 = Real(0.225) * state.z[2];
-  const Real ra6o_y = state.z[2] * (c5 * t434);
-  const Real w6_z = state.z[2] - t433;
-  const Real t439 = Real(0.225) * w6_z;
+  const Real t435 = state.z[2] * (Real(0.225) * state.z[2]);
+  const Real ra6o_y = c5 * t435;
+  const Real w6_z = state.z[2] + t433;
+  const Real t438 = Real(0.225) * w6_z;
   const Real w1_z = state.z[0] + t424;
   const Real w2_z = t427 + w1_z;
-  const Real ra1o_x = state.z[0] * (r1_x * state.z[0]);
-  const Real t448 = w1_z * (r2_x * w1_z);
-  const Real t449 = ra1o_x - t448;
-  const Real ra6o_x = t434 * (s5 * state.z[2]);
-  const Real ra1o_y = state.z[0] * (r1_y * state.z[0]);
-  const Real t455 = w1_z * (r2_y * w1_z);
-  const Real t456 = ra1o_y + t455;
-  const Real ra4o_y = state.z[1] * (r4_y * state.z[1]);
+  const Real t441 = state.z[0] * state.z[0];
+  const Real ra1o_x = r1_x * t441;
+  const Real t444 = w1_z * (r2_x * w1_z);
+  const Real t445 = ra1o_x - t444;
+  const Real ra6o_x = s5 * t435;
+  const Real ra1o_y = r1_y * t441;
+  const Real t453 = w1_z * (r2_y * w1_z);
+  const Real t454 = ra1o_y + t453;
+  const Real t455 = state.z[1] * state.z[1];
+  const Real ra4o_y = r4_y * t455;
   const Real w4_z = state.z[1] + t430;
-  const Real t470 = w2_z * (pin3ax_x * w2_z) + (w6_z * (s6 * t439) - (t449 - ra6o_x));
-  const Real t474 = w2_z * (pin3ax_y * w2_z) - (t456 + (ra6o_y - w6_z * (c6 * t439)));
-  const Real ra4o_x = state.z[1] * (r4_x * state.z[1]);
-  const Real t481 = w4_z * (pin2bx_x * w4_z) - (ra4o_x + (t449 - w2_z * (pin2ax_x * w2_z)));
-  const Real t485 = w4_z * (pin2bx_y * w4_z) - (w2_z * (pin2ax_y * w2_z) - (t456 + ra4o_y));
-  const Real t493 = t114 * (pin3ax2_x * t474 + (pin3ax2_y * t470 + (pin2ax2_y * t481 - pin2ax2_x * t485)));
-  const Real t495 = t481 - pin2ax2_y * t493;
-  const Real t497 = t485 + pin2ax2_x * t493;
-  const Real t499 = t470 - pin3ax2_y * t493;
-  const Real t501 = t474 - pin3ax2_x * t493;
-  const Real t509 = t134 * (t126 * t501 - (t124 * t499 + (t120 * t495 + t122 * t497)));
-  const Real t511 = t495 + t120 * t509;
-  const Real t513 = t497 + t122 * t509;
-  const Real t515 = t499 + t124 * t509;
-  const Real t517 = t501 - t126 * t509;
-  const Real t525 = t168 * (t160 * t517 + (t158 * t515 - (t154 * t511 - t156 * t513)));
-  const Real t541 = t218 * (t210 * (t517 - t160 * t525) - (t208 * (t515 - t158 * t525) - (t204 * (t511 + t154
-      * t525) - t206 * (t513 - t156 * t525))));
-  const Real t545 = t525 - t202 * t541;
-  const Real t549 = t152 * t545 - (t509 - t186 * t541);
-  const Real ral1o_z = t118 * t549 - (t138 * t545 + (t493 + t172 * t541));
+  const Real t466 = w2_z * (pin3ax_x * w2_z) - (t445 - (ra6o_x + t438 * (s6 * w6_z)));
+  const Real t471 = w2_z * (pin3ax_y * w2_z) - (t454 + (ra6o_y - t438 * (c6 * w6_z)));
+  const Real ra4o_x = r4_x * t455;
+  const Real t477 = w2_z * (pin2ax_x * w2_z) - (t445 + (ra4o_x - w4_z * (pin2bx_x * w4_z)));
+  const Real t482 = w2_z * (pin2ax_y * w2_z) - (t454 + (ra4o_y + w4_z * (pin2bx_y * w4_z)));
+  const Real t490 = t114 * (pin2ax2_y * t477 + pin2ax2_x * t482 + (pin3ax2_y * t466 + pin3ax2_x * t471));
+  const Real t492 = t477 - pin2ax2_y * t490;
+  const Real t494 = t482 - pin2ax2_x * t490;
+  const Real t496 = t466 - pin3ax2_y * t490;
+  const Real t498 = t471 - pin3ax2_x * t490;
+  const Real t506 = t134 * (t120 * t492 - t122 * t494 + (t124 * t496 - t126 * t498));
+  const Real t508 = t492 - t120 * t506;
+  const Real t510 = t494 + t122 * t506;
+  const Real t512 = t496 - t124 * t506;
+  const Real t514 = t498 + t126 * t506;
+  const Real t522 = t168 * (t154 * t508 + t156 * t510 - (t158 * t512 + t160 * t514));
+  const Real t538 = t218 * (t204 * (t508 - t154 * t522) + t206 * (t510 - t156 * t522) - (t208 * (t512 + t158 *
+      t522) - t210 * (t514 + t160 * t522)));
+  const Real t542 = t522 - t202 * t538;
+  const Real t546 = t152 * t542 - (t506 - t186 * t538);
+  const Real ral1o_z = t118 * t546 - (t138 * t542 - (t490 + t172 * t538));
   const Real h6b_x = s6 * Real(0.03375);
   const Real h6b_y = c6 * Real(0.03375);
   const Real D6 = t80 * Real(0.00759375);
@@ -2071,98 +2063,98 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real h2b_y = s2 * model.h_x + c2 * model.h_y;
   const Real D2 = r2_x * h2b_x - r2_y * h2b_y;
   const Real E2 = D2 + model.S2b_zz;
-  const Real h1_x = s1 * model.platform_h_y + (h2b_x + c1 * model.platform_h_x);
-  const Real h1_y = c1 * model.platform_h_y + (h2b_y - s1 * model.platform_h_x);
-  const Real J1 = D2 + E2 + model.c5;
+  const Real h1_x = h2b_x + (c1 * model.platform_h_x + s1 * model.platform_h_y);
+  const Real h1_y = h2b_y - (s1 * model.platform_h_x - c1 * model.platform_h_y);
+  const Real J1 = E2 + (D2 + model.c5);
   const Real D1 = r1_x * h1_x + r1_y * h1_y;
   const Real E1 = J1 - D1;
-  const Real p_2_1n_z = r1_y * h2b_y - (E2 - r1_x * h2b_x);
-  const Real t617 = t353 * J1 + t349 * E2;
-  const Real t620 = t353 * E2 + t349 * model.S2b_zz;
-  const Real t622 = E4 - t345 * Real(0.0050625);
-  const Real t623 = t341 * Real(0.0050625);
-  const Real t635 = t420 * J1 + t416 * E2;
-  const Real t638 = t420 * E2 + t416 * model.S2b_zz;
-  const Real t640 = t412 * Real(0.0050625);
-  const Real t642 = E6 - t408 * Real(0.0050625);
-  const Real t651 = t274 * t642 - (t278 * t640 + (t282 * t638 + (t286 * t635 - (t420 * E1 - t416 *
-      p_2_1n_z))));
-  const Real t659 = t341 * t642 - (t345 * t640 + (t349 * t638 - (t412 * E4 - t353 * t635)));
-  const Real t672 = Real(1.0) / (E6 + (D6 + (t420 * t635 + (t416 * t638 + (t412 * t640 - t408 * (E6 +
-      t642))))) + Real(0.0239375));
-  const Real t673 = t659 * t672;
-  const Real t690 = t651 * t673 - (t274 * t623 - (t278 * t622 - (t282 * t620 + (t286 * t617 - (t353 * E1 -
-      t349 * p_2_1n_z)))));
-  const Real t691 = t651 * t672;
-  const Real t693 = Real(1.0) / (E4 + (D4 + (t353 * t617 + (t349 * t620 + (t341 * t623 - (t659 * t673 -
-      (Real(0.0239375) - t345 * (E4 + t622))))))));
-  const Real t694 = t690 * t693;
+  const Real p_2_1n_z = E2 - (r1_x * h2b_x + r1_y * h2b_y);
+  const Real t614 = t353 * J1 + t349 * E2;
+  const Real t617 = t353 * E2 + t349 * model.S2b_zz;
+  const Real t619 = E4 - t345 * Real(0.0050625);
+  const Real t620 = t341 * Real(0.0050625);
+  const Real t632 = t420 * J1 + t416 * E2;
+  const Real t635 = t420 * E2 + t416 * model.S2b_zz;
+  const Real t637 = t412 * Real(0.0050625);
+  const Real t639 = E6 + t408 * Real(0.0050625);
+  const Real t648 = t282 * t635 + (t286 * t632 - (t420 * E1 + (t416 * p_2_1n_z - (t278 * t637 + t274 *
+      t639))));
+  const Real t656 = t349 * t635 + (t353 * t632 + (t345 * t637 - (t412 * E4 - t341 * t639)));
+  const Real t669 = Real(1.0) / (t416 * t635 + (t420 * t632 + (t408 * (E6 + t639) + (t412 * t637 + (E6 + (D6 +
+      Real(0.0239375)))))));
+  const Real t670 = t656 * t669;
+  const Real t687 = t648 * t670 - (t282 * t617 + (t286 * t614 - (t353 * E1 + (t278 * t619 + (t349 * p_2_1n_z -
+      t274 * t620)))));
+  const Real t688 = t648 * t669;
+  const Real t690 = Real(1.0) / (t656 * t670 - (t349 * t617 + (t353 * t614 - (t345 * (E4 + t619) - (t341 *
+      t620 + (E4 + (D4 + Real(0.0239375))))))));
+  const Real t691 = t687 * t690;
   const Real push0_0 = input.u[0] * Real(10.0);
   const Real push3_0 = Real(10.0) * input.u[1];
   const Real push5_0 = Real(10.0) * input.u[2];
   const Real zw_1 = t424 * (state.z[0] + w1_z);
   const Real rdn1_z = ral1o_z * J1;
-  const Real ra2o_x = t449 - r2_y * ral1o_z;
-  const Real ra2o_y = t456 - r2_x * ral1o_z;
+  const Real ra2o_x = t445 + r2_y * ral1o_z;
+  const Real ra2o_y = t454 + r2_x * ral1o_z;
   const Real zw_2 = t427 * (w1_z + w2_z);
-  const Real t740 = h2b_x * zw_2;
-  const Real rdf2_x = t549 * h2b_y - t740;
-  const Real t743 = h2b_y * zw_2;
-  const Real rdf2_y = t549 * h2b_x + t743;
-  const Real rdn2_z = t549 * model.S2b_zz;
+  const Real t737 = h2b_x * zw_2;
+  const Real rdf2_x = t546 * h2b_y + t737;
+  const Real t740 = h2b_y * zw_2;
+  const Real rdf2_y = t546 * h2b_x - t740;
+  const Real rdn2_z = t546 * model.S2b_zz;
   const Real zw_4 = t430 * (state.z[1] + w4_z);
-  const Real rdf4_x = t545 * h4b_y - h4b_x * zw_4;
-  const Real rdf4_y = t545 * h4b_x + h4b_y * zw_4;
-  const Real rdn4_z = t545 * Real(0.0050625);
+  const Real rdf4_x = t542 * h4b_y + h4b_x * zw_4;
+  const Real rdf4_y = t542 * h4b_x - h4b_y * zw_4;
+  const Real rdn4_z = t542 * Real(0.0050625);
   const Real zw_6 = t433 * (state.z[2] + w6_z);
-  const Real rdf6_x = t541 * h6b_y - h6b_x * zw_6;
-  const Real rdf6_y = t541 * h6b_x + h6b_y * zw_6;
-  const Real rdn6_z = t541 * Real(0.0050625);
-  const Real rf2c_x = rdf2_x + (ral1o_z * h1_y - h1_x * zw_1);
-  const Real rf2c_y = rdf2_y + (ral1o_z * h1_x + h1_y * zw_1);
-  const Real rn2c_z = r2_y * rdf2_x - (r2_x * rdf2_y + (rdn1_z + rdn2_z));
+  const Real rdf6_x = t538 * h6b_y + h6b_x * zw_6;
+  const Real rdf6_y = t538 * h6b_x - h6b_y * zw_6;
+  const Real rdn6_z = t538 * Real(0.0050625);
+  const Real rf2c_x = ral1o_z * h1_y + (h1_x * zw_1 + rdf2_x);
+  const Real rf2c_y = ral1o_z * h1_x - (h1_y * zw_1 - rdf2_y);
+  const Real rn2c_z = rdn1_z + rdn2_z + (r2_x * rdf2_y - r2_y * rdf2_x);
   const Real rQ1_0 = rn2c_z + (ra1o_y * h1_x - ra1o_x * h1_y);
-  const Real rQ2_0 = rdn2_z + (h2b_y * ra2o_x + (ral1o_z * model.S2b_zz - h2b_x * ra2o_y));
-  const Real rQ4_0 = rdn4_z + (ra4o_y * h4b_x - ra4o_x * h4b_y);
+  const Real rQ2_0 = h2b_y * ra2o_x - (h2b_x * ra2o_y + (ral1o_z * model.S2b_zz + rdn2_z));
+  const Real rQ4_0 = rdn4_z - (ra4o_y * h4b_x - ra4o_x * h4b_y);
   const Real rQ6_0 = rdn6_z + (ra6o_y * h6b_x + ra6o_x * h6b_y);
-  const Real t810 = t408 * rQ6_0 + (t412 * rQ4_0 + (t416 * rQ2_0 - (t420 * rQ1_0 - (r6_y * rdf6_x - (r6_x *
-      rdf6_y - (push5_0 - rdn6_z))))));
-  const Real t819 = t673 * t810 + (t341 * rQ6_0 + (t345 * rQ4_0 + (t349 * rQ2_0 - (t353 * rQ1_0 + (r4_y *
-      rdf4_x + (r4_x * rdf4_y + (push3_0 + rdn4_z)))))));
-  const Real t831 = (t694 * t819 + (t691 * t810 + (t274 * rQ6_0 + (t278 * rQ4_0 + (t282 * rQ2_0 - (t286 *
-      rQ1_0 - (r1_y * rf2c_x + (r1_x * rf2c_y - (push0_0 - rn2c_z))))))))) / (Real(0.0050625) * (t278 * t278 +
-      t274 * t274) + (E1 - (D1 + (t651 * t691 + (t690 * t694 - (t282 * (t282 * model.S2b_zz + (p_2_1n_z +
-      (p_2_1n_z + t286 * E2))) + t286 * (t282 * E2 - (E1 + (E1 - t286 * J1))))))) + model.c6));
-  const Real t834 = t693 * t819 + t694 * t831;
-  const Real t839 = t673 * t834 + (t672 * t810 + t691 * t831);
-  const Real t852 = t416 * t839 + (t349 * t834 - (t549 - t282 * t831));
-  const Real ra1o_x_2 = ra1o_x - r1_y * t831;
-  const Real ra1o_y_2 = ra1o_y + r1_x * t831;
-  const Real ral1o_z_2 = t420 * t839 - (t831 - (t353 * t834 - (ral1o_z - t286 * t831)));
-  const Real ra2o_x_2 = r2_y * ral1o_z_2 - (t448 - ra1o_x_2);
-  const Real ra2o_y_2 = r2_x * ral1o_z_2 + (t455 + ra1o_y_2);
-  const Real rdf2_x_2 = t740 + h2b_y * t852;
-  const Real rdf2_y_2 = t743 - h2b_x * t852;
-  const Real rdn2_z_2 = model.S2b_zz * t852;
-  const Real ra4o_x_2 = ra4o_x - r4_y * t834;
-  const Real ra4o_y_2 = ra4o_y + r4_x * t834;
-  const Real ra6o_x_2 = ra6o_x - r6_y * t839;
-  const Real ra6o_y_2 = ra6o_y + r6_x * t839;
-  const Real rQ1_0_2 = J1 * ral1o_z_2 - (r2_y * rdf2_x_2 + (r2_x * rdf2_y_2 - (rdn2_z_2 + (h1_x * ra1o_y_2 -
-      h1_y * ra1o_x_2))));
-  const Real t903 = t118 * rQ1_0_2 + (rdn2_z_2 - (h2b_y * ra2o_x_2 - (model.S2b_zz * ral1o_z_2 + h2b_x *
-      ra2o_y_2)));
-  const Real t914 = Real(0.0050625) * (t412 * t839 - (t834 - (t345 * t834 - (t545 - t278 * t831)))) + (t152 *
-      t903 - (t138 * rQ1_0_2 + (h4b_x * ra4o_y_2 - h4b_y * ra4o_x_2)));
-  const Real t928 = t114 * rQ1_0_2;
-  const Real t933 = t134 * t903;
-  const Real t938 = t168 * t914;
-  const Real t943 = t218 * (Real(0.0050625) * (t408 * t839 - (t839 - (t341 * t834 - (t541 - t274 * t831)))) -
-      (t202 * t914 - (t186 * t903 - (t172 * rQ1_0_2 + (h6b_x * ra6o_y_2 + h6b_y * ra6o_x_2)))));
-  lambda[0] = t204 * t943 - (t154 * t938 + (pin2ax2_y * t928 - t120 * t933));
-  lambda[1] = t206 * t943 - (t156 * t938 + (pin2ax2_x * t928 + t122 * t933));
-  lambda[2] = -(t208 * t943 - (t158 * t938 - (pin3ax2_y * t928 - t124 * t933)));
-  lambda[3] = t210 * t943 + (t160 * t938 - (pin3ax2_x * t928 + t126 * t933));
+  const Real t807 = t416 * rQ2_0 - (t420 * rQ1_0 + (t412 * rQ4_0 + (r6_x * rdf6_y - (push5_0 - rdn6_z) - (r6_y
+      * rdf6_x - t408 * rQ6_0))));
+  const Real t816 = t670 * t807 - (t349 * rQ2_0 - (t353 * rQ1_0 - (r4_x * rdf4_y + r4_y * rdf4_x - (t345 *
+      rQ4_0 + (t341 * rQ6_0 + (push3_0 - rdn4_z))))));
+  const Real t828 = (t691 * t816 - (t688 * t807 - (t282 * rQ2_0 - (t286 * rQ1_0 - (rn2c_z - (t278 * rQ4_0 +
+      (push0_0 + t274 * rQ6_0)) - (r1_x * rf2c_y + r1_y * rf2c_x)))))) / (t687 * t691 - (t648 * t688 - (t286 *
+      (t286 * J1 + (t282 * E2 - (E1 + E1))) + (t282 * (t286 * E2 + (t282 * model.S2b_zz - (p_2_1n_z +
+      p_2_1n_z))) + (Real(0.0050625) * (t278 * t278 + t274 * t274) + (E1 - (D1 - model.c6)))))));
+  const Real t831 = t690 * t816 - t691 * t828;
+  const Real t836 = t670 * t831 - (t669 * t807 - t688 * t828);
+  const Real t849 = t416 * t836 - (t349 * t831 + (t546 + t282 * t828));
+  const Real ra1o_x_2 = ra1o_x - r1_y * t828;
+  const Real ra1o_y_2 = ra1o_y + r1_x * t828;
+  const Real ral1o_z_2 = t420 * t836 - (t353 * t831 + (t286 * t828 + (ral1o_z - t828)));
+  const Real ra2o_x_2 = r2_y * ral1o_z_2 + (t444 - ra1o_x_2);
+  const Real ra2o_y_2 = r2_x * ral1o_z_2 - (t453 + ra1o_y_2);
+  const Real rdf2_x_2 = t737 - h2b_y * t849;
+  const Real rdf2_y_2 = t740 + h2b_x * t849;
+  const Real rdn2_z_2 = model.S2b_zz * t849;
+  const Real ra4o_x_2 = ra4o_x - r4_y * t831;
+  const Real ra4o_y_2 = ra4o_y + r4_x * t831;
+  const Real ra6o_x_2 = ra6o_x + r6_y * t836;
+  const Real ra6o_y_2 = ra6o_y - r6_x * t836;
+  const Real rQ1_0_2 = J1 * ral1o_z_2 + (rdn2_z_2 - (h1_x * ra1o_y_2 - h1_y * ra1o_x_2)) + (r2_x * rdf2_y_2 +
+      r2_y * rdf2_x_2);
+  const Real t900 = t118 * rQ1_0_2 - (h2b_y * ra2o_x_2 - (h2b_x * ra2o_y_2 + (model.S2b_zz * ral1o_z_2 +
+      rdn2_z_2)));
+  const Real t911 = t152 * t900 - (t138 * rQ1_0_2 - (Real(0.0050625) * (t412 * t836 - (t345 * t831 - (t831 -
+      (t542 + t278 * t828)))) + (h4b_x * ra4o_y_2 - h4b_y * ra4o_x_2)));
+  const Real t925 = t114 * rQ1_0_2;
+  const Real t930 = t134 * t900;
+  const Real t935 = t168 * t911;
+  const Real t940 = t218 * (t202 * t911 - (t186 * t900 + (t172 * rQ1_0_2 + (Real(0.0050625) * (t408 * t836 +
+      (t836 - (t341 * t831 + (t538 + t274 * t828)))) - (h6b_x * ra6o_y_2 + h6b_y * ra6o_x_2)))));
+  lambda[0] = -(t204 * t940 - (t154 * t935 + (pin2ax2_y * t925 - t120 * t930)));
+  lambda[1] = -(t206 * t940 - (t156 * t935 + (pin2ax2_x * t925 + t122 * t930)));
+  lambda[2] = t208 * t940 - (t158 * t935 - (pin3ax2_y * t925 - t124 * t930));
+  lambda[3] = -(t210 * t940 + (t160 * t935 - (pin3ax2_x * t925 + t126 * t930)));
 }
 
 // `input` may be a function that gives the Input at the state of a stage.

@@ -227,7 +227,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
 
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept {
-  const Real v0T = state.z[0] * state.z[0] * model.c3;
+  const Real v0T = model.c3 * (state.z[0] * state.z[0]);
   return v0T;
 }
 

@@ -33,8 +33,8 @@
 //   linearly_implicit_euler_step, ros34pw2_step, rosw43_step, rodas4_step
 // Checked before this file was written
 // - validated at 8 states: in 77 digits everything below agrees to 1e-40 of its scale (what rounding can move
-//   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 4.4e-17 of the
-//   sum of absolute terms, other errors are 3.8e-16 of their scale; cond(M) up to 8.8e+04
+//   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 4.3e-17 of the
+//   sum of absolute terms, other errors are 4.4e-16 of their scale; cond(M) up to 8.8e+04
 // - the symbolic equations (M, k_bar, q_bar, energies, initial y, initial z): the numeric reference
 // - initial_state: the description's start
 // - mass_matrix: M of the equations
@@ -160,7 +160,7 @@ template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[6][6]) noexcept;
 
 /// Inertia terms k_bar: Coriolis, centrifugal and those of prescribed motion; no gravity.
-/// 298 operations (178 mul, 120 add and sub, 0 div), 8 sin and cos.
+/// 297 operations (177 mul, 120 add and sub, 0 div), 8 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[6]) noexcept;
 
@@ -172,7 +172,7 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
     noexcept;
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
-/// 506 operations (286 mul, 216 add and sub, 4 div), 8 sin and cos.
+/// 504 operations (285 mul, 215 add and sub, 4 div), 8 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[6]) noexcept;
@@ -196,7 +196,7 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 2191 operations. For inputs sampled at the stages include puma560_kernels.hpp and pass a function of the
+/// 2183 operations. For inputs sampled at the stages include puma560_kernels.hpp and pass a function of the
 /// state instead of `input`.
 template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;

@@ -280,7 +280,6 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[6][6]) 
   const Real h4b_y = s4 * Real(0.0028799999999999997);
   const Real S4c_xx = S4b_xx + Real(0.00129216);
   const Real S4c_xz = S4b_xy + Real(0.4318) * h4b_y;
-  const Real S4c_zz = S4b_xx - h4b_x * Real(0.8636);
   const Real S3b_zz = S4c_xx + Real(0.00077);
   const Real S3b_d = S4c_xx - Real(0.00077);
   const Real S3b_t = s3 * S3b_d;
@@ -292,37 +291,30 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[6][6]) 
   const Real h3b_y = s3 * h4b_y;
   const Real h3c_x = h4b_x + Real(0.8913300000000001);
   const Real h3c_y = h3b_x - Real(0.025374999999999998);
-  const Real S3c_xx = S4c_zz - Real(0.34123495800000003);
+  const Real S3c_xx = S4b_xx - (h4b_x * Real(0.8636) + Real(0.34123495800000003));
   const Real S3c_xy = S3b_xz - (h4b_x * Real(0.0203) + Real(0.011273199));
   const Real S3c_xz = S3b_yz + (h4b_x * Real(0.15005) + Real(0.1384816665));
   const Real S3c_yy = S3b_xx - (h3b_x * Real(0.0406) - Real(0.0167651125));
-  const Real S3c_yz = S3b_xy + (h3b_x * Real(0.15005) - h3b_y * Real(0.0203) - Real(0.0038075187499999994));
+  const Real S3c_yz = S3b_xy - (h3b_y * Real(0.0203) - (h3b_x * Real(0.15005) - Real(0.0038075187499999994)));
   const Real S2b_zz = S3c_xx - S3c_yy;
   const Real S2b_d = S3c_xx + S3c_yy;
-  const Real S2b_t = c2 * S3c_xy * Real(2.0) + s2 * S2b_d;
+  const Real S2b_t = S3c_xy * (c2 * Real(2.0)) + s2 * S2b_d;
   const Real S2b_xz = c2 * S3c_xz + s2 * S3c_yz;
   const Real h2b_x = c2 * h3c_x + s2 * h3c_y;
   const Real h2b_y = c2 * h3c_y - s2 * h3c_x;
   const Real t94 = r2_x * h2b_x;
   const Real D2 = t94 - r2_y * h2b_y;
   const Real E2 = S2b_zz + D2;
-  const Real Jc2 = D2 + E2;
-  const Real t100 = r2_x * h3b_y;
-  const Real S2c_xz = S2b_xz - t100;
+  const Real t99 = r2_x * h3b_y;
   const Real S1b_t = s1 * Real(1.601861202) + c1 * Real(0.014198399999999993);
-  const Real S1b_xz = s1 * Real(0.6903913435) + c1 * Real(0.023751);
-  const Real J1 = Jc2 - Real(1.748114002);
-  const Real S1_xz = S2c_xz - S1b_xz;
-  const Real S0b_zz = h3b_y * Real(0.3001) - (S3b_xx - (S3b_zz - (s1 * S1b_t - (Real(2.0) * t94 - (s2 * S2b_t
-      - (S3c_xx - J1)))))) + Real(1.3886631711250002);
-  const Real p_3_3l_x = h3b_y * Real(0.15005) - h3b_x * Real(0.0203);
-  const Real p_3_3n_x = S3b_zz + p_3_3l_x;
-  const Real p_3_3F_x = s2 * h3b_y;
-  const Real p_3_3N_x = c2 * p_3_3n_x - s2 * S3b_xz;
+  const Real J1 = E2 + (D2 - Real(1.748114002));
+  const Real S1_xz = S2b_xz - (t99 + (s1 * Real(0.6903913435) + c1 * Real(0.023751)));
+  const Real S0b_zz = s2 * S2b_t + (J1 + (S3b_xx - (Real(2.0) * t94 + (S3c_xx - s1 * S1b_t + (S3b_zz + (h3b_y
+      * Real(0.3001) + Real(1.3886631711250002)))))));
+  const Real p_3_3n_x = S3b_zz + (h3b_y * Real(0.15005) - h3b_x * Real(0.0203));
   const Real p_3_2l_x = r2_y * h3b_x;
-  const Real p_3_2l_z = c2 * t100 + r2_y * p_3_3F_x;
-  const Real p_3_2n_x = p_3_3N_x + p_3_2l_x;
-  const Real p_3_2n_z = S3b_yz - p_3_2l_z;
+  const Real p_3_2n_x = c2 * p_3_3n_x - (s2 * S3b_xz - p_3_2l_x);
+  const Real p_3_2n_z = h3b_y * (s2 * r2_y) - (S3b_yz - c2 * t99);
   const Real p_4_4l_y = Real(0.4318) * h4b_x;
   const Real p_4_4n_y = p_4_4l_y + Real(0.00064216);
   const Real p_4_4F_x = c3 * h4b_x;
@@ -336,17 +328,14 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[6][6]) 
   const Real p_4_3n_z = p_4_4N_y - p_4_3l_z;
   const Real p_4_3F_x = c2 * h4b_y - s2 * p_4_4F_x;
   const Real p_4_3F_y = c2 * p_4_4F_x + s2 * h4b_y;
-  const Real p_4_3N_x = c2 * p_4_3l_x + s2 * p_4_3n_y;
   const Real p_4_2l_x = r2_y * p_4_4F_y;
-  const Real p_4_2l_z = r2_x * p_4_3F_y - r2_y * p_4_3F_x;
-  const Real p_4_2n_x = p_4_3N_x - p_4_2l_x;
-  const Real p_4_2n_z = p_4_3n_z - p_4_2l_z;
+  const Real p_4_2n_x = s2 * p_4_3n_y + (c2 * p_4_3l_x - p_4_2l_x);
+  const Real p_4_2n_z = r2_y * p_4_3F_x + (p_4_3n_z - r2_x * p_4_3F_y);
   const Real p_5_5N_x = c4 * Real(4e-05);
   const Real p_5_5N_y = s4 * Real(4e-05);
-  const Real p_5_4N_x = c3 * p_5_5N_y;
   const Real p_5_4N_y = s3 * p_5_5N_y;
-  const Real p_5_3N_x = c2 * p_5_5N_x + s2 * p_5_4N_x;
-  M[0][0] = S0b_zz;
+  const Real p_5_3N_x = c2 * p_5_5N_x + s2 * (c3 * p_5_5N_y);
+  M[0][0] = -S0b_zz;
   M[0][1] = M[1][0] = S1_xz;
   M[0][2] = M[2][0] = S2b_xz;
   M[0][3] = M[3][0] = -p_3_2n_x;
@@ -354,7 +343,7 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[6][6]) 
   M[0][5] = M[5][0] = -p_5_3N_x;
   M[1][1] = -J1;
   M[1][2] = M[2][1] = -E2;
-  M[1][3] = M[3][1] = -p_3_2n_z;
+  M[1][3] = M[3][1] = p_3_2n_z;
   M[1][4] = M[4][1] = p_4_2n_z;
   M[1][5] = M[5][1] = p_5_4N_y;
   M[2][2] = -S2b_zz;
@@ -385,7 +374,6 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
   const Real h4b_y = s4 * Real(0.0028799999999999997);
   const Real S4c_xx = S4b_yy + Real(0.00065);
   const Real S4c_xz = S4b_xy + Real(0.4318) * h4b_y;
-  const Real S4c_zz = S4b_xx - h4b_x * Real(0.8636);
   const Real S3b_zz = S4c_xx + Real(0.00077);
   const Real S3b_d = S4c_xx - Real(0.00077);
   const Real S3b_t = s3 * S3b_d;
@@ -400,20 +388,16 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
   const Real h3c_y = h3b_x - Real(0.025374999999999998);
   const Real S3c_xy = S3b_xz - (h4b_x * Real(0.0203) + Real(0.011273199));
   const Real S3c_xz = S3b_yz + (h4b_x * Real(0.15005) + Real(0.1384816665));
-  const Real S3c_yz = S3b_xy + (h3b_x * Real(0.15005) - h3b_y * Real(0.0203) - Real(0.0038075187499999994));
-  const Real S2b_d = h3b_x * Real(0.0406) - (S4c_zz + S3b_xx) + Real(0.3244698455);
-  const Real S2b_t = c2 * S3c_xy * Real(2.0) - s2 * S2b_d;
+  const Real S3c_yz = S3b_xy - (h3b_y * Real(0.0203) - (h3b_x * Real(0.15005) - Real(0.0038075187499999994)));
+  const Real S2b_d = S3b_xx - (h4b_x * Real(0.8636) + Real(0.3244698455) - (S4b_xx - h3b_x * Real(0.0406)));
+  const Real S2b_t = S3c_xy * (c2 * Real(2.0)) + s2 * S2b_d;
   const Real S2b_xy = S3c_xy - c2 * S2b_t;
   const Real S2b_yz = c2 * S3c_yz - s2 * S3c_xz;
   const Real h2b_x = c2 * h3c_x + s2 * h3c_y;
   const Real h2b_y = c2 * h3c_y - s2 * h3c_x;
-  const Real S2c_xy = S2b_xy + (r2_x * h2b_y - r2_y * h2b_x);
-  const Real S2c_yz = S2b_yz + r2_y * h3b_y;
   const Real S1b_t = s1 * Real(1.601861202) + c1 * Real(0.014198399999999993);
-  const Real S1b_xy = c1 * S1b_t - Real(0.0070991999999999965);
-  const Real S1b_yz = c1 * Real(0.6903913435) - s1 * Real(0.023751);
-  const Real S1_xy = S2c_xy + S1b_xy;
-  const Real S1_yz = S2c_yz + S1b_yz;
+  const Real S1_xy = S2b_xy - (r2_y * h2b_x - (r2_x * h2b_y + (c1 * S1b_t - Real(0.0070991999999999965))));
+  const Real S1_yz = S2b_yz + (r2_y * h3b_y + (c1 * Real(0.6903913435) - s1 * Real(0.023751)));
   const Real w2_z = state.z[1] + state.z[2];
   const Real w3pp_x = c2 * state.z[0];
   const Real w3pp_y = s2 * state.z[0];
@@ -425,7 +409,6 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
   const Real kKy1 = S1_xy * state.z[0];
   const Real kQp1 = state.z[0] * kKy1;
   const Real zz_1 = state.z[1] * state.z[1];
-  const Real kdn1_x = S1_yz * zz_1 + Real(2.0) * (state.z[1] * kKy1);
   const Real kal1o_y = state.z[1] * state.z[0];
   const Real kW1w00 = state.z[0] * state.z[0];
   const Real kW1U1_y = zz_1 + kW1w00;
@@ -433,33 +416,23 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
   const Real ka2o_x = r2_x * zz_1;
   const Real ka2o_y = r2_y * kW1U1_y;
   const Real ka2o_z = r2_x * kW1U2_x;
-  const Real t147 = S2b_xy * state.z[0];
-  const Real kKy2 = t147 + S2b_yz * state.z[1];
-  const Real kQp2 = state.z[0] * t147 - h2b_x * ka2o_y - h2b_y * ka2o_x;
+  const Real t146 = S2b_xy * state.z[0];
+  const Real kKy2 = t146 + S2b_yz * state.z[1];
   const Real z2_2 = Real(2.0) * state.z[2];
-  const Real zz_2 = state.z[2] * state.z[2];
   const Real zw_2 = state.z[2] * (state.z[1] + w2_z);
-  const Real kax2 = h2b_x * state.z[0];
   const Real kdf2_x = h2b_x * zw_2;
   const Real kdf2_y = h2b_y * zw_2;
-  const Real kdf2_z = z2_2 * kax2;
-  const Real kdn2_x = S2b_yz * zz_2 + kKy2 * z2_2;
+  const Real kdf2_z = h2b_x * (state.z[0] * z2_2);
   const Real kal2o_y = w2_z * state.z[0];
   const Real kal3p_x = s2 * kal2o_y;
   const Real kal3p_y = c2 * kal2o_y;
-  const Real kL2a_x = c2 * ka2o_x + s2 * ka2o_y;
-  const Real kL2a_y = c2 * ka2o_y - s2 * ka2o_x;
   const Real kL2w00 = w3pp_x * w3pp_x;
-  const Real kL2w01 = w3pp_x * w3pp_y;
   const Real kL2w22 = w2_z * w2_z;
   const Real kL2U1_y = kL2w00 + kL2w22;
-  const Real ka3o_x = kL2a_x - Real(0.0203) * kL2w01;
-  const Real ka3o_y = kL2a_y - Real(0.0203) * kL2U1_y;
-  const Real ka3o_z = ka2o_z - (Real(0.15005) * kW1w00 - Real(0.0406) * kal3p_x);
-  const Real kKx3 = S3b_xx * w3pp_y - S3b_xy * w2_z + S3b_xz * w3pp_x;
-  const Real kKy3 = S3b_xy * w3pp_y + S3b_yz * w3pp_x - S3b_yy * w2_z;
-  const Real kQp3 = S3b_zz * kal3p_x + S3b_xz * kal3p_y - h3b_x * ka3o_z - h3b_y * ka3o_y + w2_z * kKx3 +
-      w3pp_y * kKy3;
+  const Real ka3o_y = Real(0.0203) * kL2U1_y - (c2 * ka2o_y - s2 * ka2o_x);
+  const Real ka3o_z = Real(0.0406) * kal3p_x + (ka2o_z - Real(0.15005) * kW1w00);
+  const Real kKx3 = S3b_xx * w3pp_y - (S3b_xy * w2_z - S3b_xz * w3pp_x);
+  const Real kKy3 = S3b_yy * w2_z - (S3b_xy * w3pp_y + S3b_yz * w3pp_x);
   const Real z2_3 = Real(2.0) * state.z[3];
   const Real zz_3 = state.z[3] * state.z[3];
   const Real zw_3 = state.z[3] * (w3pp_x + w3_z);
@@ -467,24 +440,19 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
   const Real kdf3_x = h3b_x * zw_3;
   const Real kdf3_y = h3b_y * zw_3;
   const Real kdf3_z = z2_3 * kax3;
-  const Real kdn3_x = S3b_yz * zz_3 - kKy3 * z2_3;
-  const Real kdn3_y = S3b_xz * zz_3 - kKx3 * z2_3;
   const Real kal3o_x = kal3p_y + w2_z * state.z[3];
   const Real kal3o_y = w3pp_y * state.z[3];
-  const Real kal4p_x = c3 * kal3o_x + s3 * kal3o_y;
   const Real kal4p_y = c3 * kal3o_y - s3 * kal3o_x;
-  const Real kL3a_x = c3 * ka3o_y - s3 * ka3o_z;
   const Real kL3w00 = w4pp_x * w4pp_x;
   const Real kL3w02 = w3_z * w4pp_x;
   const Real kL3w11 = w4pp_y * w4pp_y;
   const Real kL3U0_z = kal4p_y + kL3w02;
   const Real kL3U2_z = kL3w00 + kL3w11;
-  const Real ka4o_x = kL3a_x - Real(0.4318) * kL3U0_z;
-  const Real ka4o_z = ka3o_x - Real(0.4318) * kL3U2_z;
+  const Real ka4o_x = Real(0.4318) * kL3U0_z + (c3 * ka3o_y + s3 * ka3o_z);
+  const Real ka4o_z = Real(0.4318) * kL3U2_z + (w3pp_y * (Real(0.0203) * w3pp_x) - (c2 * ka2o_x + s2 *
+      ka2o_y));
   const Real kKx4 = S4b_xx * w3_z - S4b_xy * w4pp_x;
   const Real kKy4 = S4b_xy * w3_z + S4b_yy * w4pp_x;
-  const Real kQp4 = Real(0.00064216) * kal4p_y - h4b_x * ka4o_x - h4b_y * ka4o_z - w3_z * kKy4 - w4pp_x *
-      kKx4;
   const Real z2_4 = Real(2.0) * state.z[4];
   const Real zw_4 = state.z[4] * (w4pp_y + w4_z);
   const Real kax4 = kax3 + h4b_x * w3_z;
@@ -494,47 +462,38 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
   const Real kdn4_x = kKy4 * z2_4;
   const Real kdn4_y = kKx4 * z2_4;
   const Real kal4o_x = kal3p_x + w4pp_x * state.z[4];
-  const Real kal4o_y = kal4p_x + w3_z * state.z[4];
+  const Real kal4o_y = w3_z * state.z[4] + (c3 * kal3o_x + s3 * kal3o_y);
   const Real kal5p_x = c4 * kal4o_x - s4 * kal4o_y;
   const Real kQp5 = kal5p_x * Real(4e-05);
-  const Real z2_5 = Real(2.0) * state.z[5];
-  const Real kdn5_x = w4_z * z2_5 * Real(2e-05);
-  const Real kdn5_y = Real(2e-05) * (w5pp_y * z2_5);
+  const Real t265 = Real(2e-05) * (Real(2.0) * state.z[5]);
+  const Real kdn5_x = w4_z * t265;
+  const Real kdn5_y = w5pp_y * t265;
   const Real kn4b_x = s4 * kdn5_x;
   const Real kn4b_y = c4 * kdn5_x;
   const Real kn4_x = kdn4_x + kn4b_x;
-  const Real kn4_y = kdn4_y - kn4b_y;
-  const Real kn4c_x = kn4_y - Real(0.4318) * kdf4_z;
+  const Real kn4c_x = Real(0.4318) * kdf4_z - (kdn4_y - kn4b_y);
   const Real kn4c_y = kdn5_y - Real(0.4318) * kdf4_y;
-  const Real kf3b_x = c3 * kdf4_y - s3 * kdf4_z;
-  const Real kf3b_y = c3 * kdf4_z + s3 * kdf4_y;
-  const Real kf3_x = kdf3_x - kf3b_x;
-  const Real kf3_y = kdf3_y - kf3b_y;
+  const Real kf3_x = c3 * kdf4_y - (kdf3_x + s3 * kdf4_z);
+  const Real kf3_y = s3 * kdf4_y - (kdf3_y - c3 * kdf4_z);
   const Real kf3_z = kdf3_z + kdf4_x;
-  const Real kn3b_x = c3 * kn4c_x + s3 * kn4c_y;
-  const Real kn3b_y = c3 * kn4c_y - s3 * kn4c_x;
-  const Real kn3_x = kdn3_x - kn3b_x;
-  const Real kn3_y = kdn3_y - kn3b_y;
-  const Real kn3c_x = kn4_x + (Real(0.15005) * kf3_x + Real(0.0203) * kf3_y);
-  const Real kn3c_y = kn3_x - Real(0.15005) * kf3_z;
-  const Real kn3c_z = kn3_y + Real(0.0203) * kf3_z;
-  const Real kf2b_x = c2 * kf3_z - s2 * kf3_x;
-  const Real kf2b_y = c2 * kf3_x + s2 * kf3_z;
-  const Real kf2_x = kdf2_x + kf2b_x;
-  const Real kf2_y = kdf2_y - kf2b_y;
-  const Real kf2_z = kdf2_z - kf3_y;
-  const Real kn2b_x = c2 * kn3c_x - s2 * kn3c_y;
-  const Real kn2_x = kdn2_x - kn2b_x;
-  const Real kn2c_x = kn2_x + (kdn1_x - r2_y * kf2_z);
-  const Real kn2c_z = kn3c_z - (r2_x * kf2_y + r2_y * kf2_x);
-  const Real kQ1_0 = kQp1 - kn2c_z;
-  const Real kQ2_0 = kQp2 - kn3c_z;
-  const Real kQ3_0 = kQp3 + kn4_x;
-  const Real kQ4_0 = kQp4 + kdn5_y;
-  k[0] = kn2c_x;
+  const Real kn3c_x = Real(0.0203) * kf3_y - (kn4_x - Real(0.15005) * kf3_x);
+  const Real kn3c_y = s3 * kn4c_y + Real(0.15005) * kf3_z - (kKy3 * z2_3 + (S3b_yz * zz_3 + c3 * kn4c_x));
+  const Real kn3c_z = kKx3 * z2_3 - Real(0.0203) * kf3_z + (c3 * kn4c_y - (S3b_xz * zz_3 - s3 * kn4c_x));
+  const Real kf2_x = s2 * kf3_x + (kdf2_x + c2 * kf3_z);
+  const Real kf2_y = c2 * kf3_x + (kdf2_y - s2 * kf3_z);
+  const Real kf2_z = kdf2_z + kf3_y;
+  const Real kn2c_x = s2 * kn3c_y - (c2 * kn3c_x - (r2_y * kf2_z - (S1_yz * zz_1 + S2b_yz * (state.z[2] *
+      state.z[2])))) - (kKy1 * (Real(2.0) * state.z[1]) + kKy2 * z2_2);
+  const Real kQ1_0 = kQp1 + (r2_y * kf2_x + (kn3c_z + r2_x * kf2_y));
+  const Real kQ2_0 = state.z[0] * t146 + (kn3c_z - (h2b_x * ka2o_y + h2b_y * ka2o_x));
+  const Real kQ3_0 = w3pp_y * kKy3 - (w2_z * kKx3 + (kn4_x + (h3b_y * ka3o_y + (S3b_zz * kal3p_x + (S3b_xz *
+      kal3p_y - h3b_x * ka3o_z)))));
+  const Real kQ4_0 = h4b_x * ka4o_x + (h4b_y * ka4o_z + (Real(0.00064216) * kal4p_y - w3_z * kKy4 - (w4pp_x *
+      kKx4 - kdn5_y)));
+  k[0] = -kn2c_x;
   k[1] = -kQ1_0;
   k[2] = -kQ2_0;
-  k[3] = kQ3_0;
+  k[3] = -kQ3_0;
   k[4] = -kQ4_0;
   k[5] = kQp5;
 }
@@ -548,18 +507,15 @@ void q_bar(const Model<Real>&, const State<Real>& state, const Input<Real>& inpu
   const Real h4b_x = c4 * Real(0.0028799999999999997);
   const Real h4b_y = s4 * Real(0.0028799999999999997);
   const Real h3b_x = c3 * h4b_y;
-  const Real h3b_y = s3 * h4b_y;
   const Real h3c_x = h4b_x + Real(0.8913300000000001);
   const Real h3c_y = h3b_x - Real(0.025374999999999998);
   const Real h2b_y = c2 * h3c_y - s2 * h3c_x;
-  const Real h1b_y = s1 * Real(0.10439999999999999) - c1 * Real(3.79559);
-  const Real h1_y = h2b_y - h1b_y;
+  const Real h1_y = h2b_y - (s1 * Real(0.10439999999999999) - c1 * Real(3.79559));
   const Real q_1 = h1_y * Real(9.81) - input.u[1];
   const Real q_2 = h2b_y * Real(9.81) - input.u[2];
   const Real g3p_y = s2 * Real(9.81);
-  const Real q_3 = input.u[3] - h3b_y * g3p_y;
-  const Real g4p_x = c3 * g3p_y;
-  const Real q_4 = input.u[4] + h4b_x * g4p_x - Real(9.81) * (c2 * h4b_y);
+  const Real q_3 = input.u[3] - g3p_y * (s3 * h4b_y);
+  const Real q_4 = g3p_y * (c3 * h4b_x) + (input.u[4] - c2 * (h4b_y * Real(9.81)));
   q[0] = -input.u[0];
   q[1] = q_1;
   q[2] = q_2;
@@ -597,22 +553,22 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real h3b_y = s3 * h4b_y;
   const Real h3c_x = h4b_x + Real(0.8913300000000001);
   const Real h3c_y = h3b_x - Real(0.025374999999999998);
-  const Real S3c_xx = S4b_xx - h4b_x * Real(0.8636) - Real(0.34123495800000003);
-  const Real S3c_xy = S3b_xz - h4b_x * Real(0.0203) - Real(0.011273199);
-  const Real S3c_xz = h4b_x * Real(0.15005) + (S3b_yz + Real(0.1384816665));
-  const Real S3c_yy = h3b_x * Real(0.0406) - (S3b_xx + Real(0.0167651125));
-  const Real S3c_yz = h3b_y * Real(0.0203) - (S3b_xy + h3b_x * Real(0.15005)) + Real(0.0038075187499999994);
-  const Real S2b_d = S3c_xx - S3c_yy;
-  const Real S2b_t = c2 * S3c_xy * Real(2.0) + s2 * S2b_d;
+  const Real S3c_xx = S4b_xx - (h4b_x * Real(0.8636) + Real(0.34123495800000003));
+  const Real S3c_xy = S3b_xz - (h4b_x * Real(0.0203) + Real(0.011273199));
+  const Real S3c_xz = S3b_yz + (h4b_x * Real(0.15005) + Real(0.1384816665));
+  const Real S3c_yy = S3b_xx - (h3b_x * Real(0.0406) - Real(0.0167651125));
+  const Real S3c_yz = S3b_xy - (h3b_y * Real(0.0203) - (h3b_x * Real(0.15005) - Real(0.0038075187499999994)));
+  const Real S2b_d = S3c_xx + S3c_yy;
+  const Real S2b_t = S3c_xy * (c2 * Real(2.0)) + s2 * S2b_d;
   const Real S2b_xy = S3c_xy - c2 * S2b_t;
-  const Real S2b_yz = c2 * S3c_yz + s2 * S3c_xz;
+  const Real S2b_yz = c2 * S3c_yz - s2 * S3c_xz;
   const Real h2b_x = c2 * h3c_x + s2 * h3c_y;
   const Real h2b_y = c2 * h3c_y - s2 * h3c_x;
   const Real t97 = r2_y * h3b_y;
   const Real S1b_t = s1 * Real(1.601861202) + c1 * Real(0.014198399999999993);
-  const Real h1_y = c1 * Real(3.79559) + (h2b_y - s1 * Real(0.10439999999999999));
-  const Real S1_xy = c1 * S1b_t - (r2_y * h2b_x - (S2b_xy + r2_x * h2b_y) + Real(0.0070991999999999965));
-  const Real S1_yz = s1 * Real(0.023751) - (c1 * Real(0.6903913435) - (S2b_yz - t97));
+  const Real h1_y = h2b_y - (s1 * Real(0.10439999999999999) - c1 * Real(3.79559));
+  const Real S1_xy = S2b_xy - (r2_y * h2b_x - (r2_x * h2b_y + (c1 * S1b_t - Real(0.0070991999999999965))));
+  const Real S1_yz = S2b_yz + (t97 + (c1 * Real(0.6903913435) - s1 * Real(0.023751)));
   const Real w2_z = state.z[1] + state.z[2];
   const Real w3pp_x = c2 * state.z[0];
   const Real w3pp_y = s2 * state.z[0];
@@ -631,24 +587,21 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real ba2o_y = r2_y * bW1U1_y;
   const Real ba2o_z = r2_x * bW1U2_x;
   const Real t157 = S2b_xy * state.z[0];
-  const Real bKy2 = t157 - S2b_yz * state.z[1];
+  const Real bKy2 = t157 + S2b_yz * state.z[1];
   const Real z2_2 = Real(2.0) * state.z[2];
-  const Real zz_2 = state.z[2] * state.z[2];
   const Real zw_2 = state.z[2] * (state.z[1] + w2_z);
-  const Real bax2 = h2b_x * state.z[0];
   const Real bdf2_x = h2b_x * zw_2;
   const Real bdf2_y = h2b_y * zw_2;
-  const Real bdf2_z = z2_2 * bax2;
+  const Real bdf2_z = h2b_x * (state.z[0] * z2_2);
   const Real bal2o_y = w2_z * state.z[0];
   const Real bal3p_x = s2 * bal2o_y;
   const Real bal3p_y = c2 * bal2o_y;
   const Real bL2w00 = w3pp_x * w3pp_x;
-  const Real bL2w01 = w3pp_x * w3pp_y;
   const Real bL2w22 = w2_z * w2_z;
   const Real bL2U1_y = bL2w00 + bL2w22;
   const Real ba3o_y = Real(0.0203) * bL2U1_y - (c2 * ba2o_y + s2 * ba2o_x);
   const Real ba3o_z = Real(0.0406) * bal3p_x + (ba2o_z - Real(0.15005) * bW1w00);
-  const Real bKx3 = S3b_xz * w3pp_x + (S3b_xx * w3pp_y - S3b_xy * w2_z);
+  const Real bKx3 = S3b_xx * w3pp_y - (S3b_xy * w2_z - S3b_xz * w3pp_x);
   const Real bKy3 = S3b_yy * w2_z - (S3b_xy * w3pp_y + S3b_yz * w3pp_x);
   const Real z2_3 = Real(2.0) * state.z[3];
   const Real zz_3 = state.z[3] * state.z[3];
@@ -666,7 +619,8 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real bL3U0_z = bal4p_y + bL3w02;
   const Real bL3U2_z = bL3w00 + bL3w11;
   const Real ba4o_x = Real(0.4318) * bL3U0_z + (c3 * ba3o_y + s3 * ba3o_z);
-  const Real ba4o_z = Real(0.4318) * bL3U2_z + (Real(0.0203) * bL2w01 + (c2 * ba2o_x - s2 * ba2o_y));
+  const Real ba4o_z = Real(0.4318) * bL3U2_z + (w3pp_y * (Real(0.0203) * w3pp_x) + (c2 * ba2o_x - s2 *
+      ba2o_y));
   const Real bKx4 = S4b_xx * w3_z - S4b_xy * w4pp_x;
   const Real bKy4 = S4b_xy * w3_z + S4b_yy * w4pp_x;
   const Real z2_4 = Real(2.0) * state.z[4];
@@ -680,34 +634,34 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real bal4o_x = bal3p_x + w4pp_x * state.z[4];
   const Real bal4o_y = w3_z * state.z[4] + (c3 * bal3o_x + s3 * bal3o_y);
   const Real bal5p_x = c4 * bal4o_x - s4 * bal4o_y;
-  const Real z2_5 = Real(2.0) * state.z[5];
-  const Real bdn5_x = w4_z * z2_5 * Real(2e-05);
-  const Real bdn5_y = Real(2e-05) * (w5pp_y * z2_5);
+  const Real t275 = Real(2e-05) * (Real(2.0) * state.z[5]);
+  const Real bdn5_x = w4_z * t275;
+  const Real bdn5_y = w5pp_y * t275;
   const Real bn4b_x = s4 * bdn5_x;
   const Real bn4b_y = c4 * bdn5_x;
   const Real bn4_x = bdn4_x + bn4b_x;
   const Real bn4c_x = Real(0.4318) * bdf4_z - (bdn4_y - bn4b_y);
   const Real bn4c_y = bdn5_y - Real(0.4318) * bdf4_y;
-  const Real bf3_x = s3 * bdf4_z + (bdf3_x - c3 * bdf4_y);
+  const Real bf3_x = c3 * bdf4_y - (bdf3_x + s3 * bdf4_z);
   const Real bf3_y = s3 * bdf4_y - (bdf3_y - c3 * bdf4_z);
   const Real bf3_z = bdf3_z + bdf4_x;
-  const Real bn3c_x = Real(0.0203) * bf3_y - (bn4_x + Real(0.15005) * bf3_x);
-  const Real bn3c_y = Real(0.15005) * bf3_z + (s3 * bn4c_y - (c3 * bn4c_x + (S3b_yz * zz_3 + bKy3 * z2_3)));
-  const Real bn3c_z = Real(0.0203) * bf3_z - (s3 * bn4c_x + (c3 * bn4c_y - (S3b_xz * zz_3 - bKx3 * z2_3)));
-  const Real bf2_x = s2 * bf3_x - (bdf2_x + c2 * bf3_z);
-  const Real bf2_y = s2 * bf3_z - (bdf2_y - c2 * bf3_x);
+  const Real bn3c_x = Real(0.0203) * bf3_y - (bn4_x - Real(0.15005) * bf3_x);
+  const Real bn3c_y = s3 * bn4c_y + Real(0.15005) * bf3_z - (bKy3 * z2_3 + (S3b_yz * zz_3 + c3 * bn4c_x));
+  const Real bn3c_z = bKx3 * z2_3 - Real(0.0203) * bf3_z + (c3 * bn4c_y - (S3b_xz * zz_3 - s3 * bn4c_x));
+  const Real bf2_x = s2 * bf3_x + (bdf2_x + c2 * bf3_z);
+  const Real bf2_y = c2 * bf3_x + (bdf2_y - s2 * bf3_z);
   const Real bf2_z = bdf2_z + bf3_y;
-  const Real b_4 = input.u[4] - (bdn5_y - (w4pp_x * bKx4 + (w3_z * bKy4 - (h4b_y * ba4o_z + (Real(0.00064216)
-      * bal4p_y + h4b_x * ba4o_x)))));
+  const Real b_4 = h4b_x * ba4o_x + (h4b_y * ba4o_z - (w3_z * bKy4 + w4pp_x * bKx4 - (bdn5_y +
+      (Real(0.00064216) * bal4p_y - input.u[4]))));
   const Real b_5 = bal5p_x * Real(4e-05) + input.u[5];
-  const Real S2b_zz = S3c_xx + S3c_yy;
-  const Real S2b_xz = c2 * S3c_xz - s2 * S3c_yz;
-  const Real t348 = r2_x * h2b_x;
-  const Real D2 = t348 - r2_y * h2b_y;
+  const Real S2b_zz = S3c_xx - S3c_yy;
+  const Real S2b_xz = c2 * S3c_xz + s2 * S3c_yz;
+  const Real t347 = r2_x * h2b_x;
+  const Real D2 = t347 - r2_y * h2b_y;
   const Real E2 = S2b_zz + D2;
-  const Real t353 = r2_x * h3b_y;
-  const Real J1 = D2 + E2 - Real(1.748114002);
-  const Real p3_3n_x = h3b_x * Real(0.0203) - (S3b_zz + h3b_y * Real(0.15005));
+  const Real t352 = r2_x * h3b_y;
+  const Real J1 = E2 + (D2 - Real(1.748114002));
+  const Real p3_3n_x = S3b_zz + (h3b_y * Real(0.15005) - h3b_x * Real(0.0203));
   const Real p3_2l_x = r2_y * h3b_x;
   const Real p4_4l_y = Real(0.4318) * h4b_x;
   const Real p4_4n_y = Real(0.00064216) + p4_4l_y;
@@ -723,71 +677,69 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real p4_3F_x = c2 * h4b_y - s2 * p4_4F_x;
   const Real p4_3F_y = c2 * p4_4F_x + s2 * h4b_y;
   const Real p4_2l_x = r2_y * p4_4F_y;
-  const Real p4_2n_x = p4_2l_x - (c2 * p4_3l_x + s2 * p4_3n_y);
+  const Real p4_2n_x = s2 * p4_3n_y + (c2 * p4_3l_x - p4_2l_x);
   const Real p4_2n_z = r2_y * p4_3F_x + (p4_3n_z - r2_x * p4_3F_y);
   const Real p5_5N_x = c4 * Real(4e-05);
   const Real p5_5N_y = s4 * Real(4e-05);
-  const Real p5_4N_x = c3 * p5_5N_y;
   const Real p5_4N_y = s3 * p5_5N_y;
-  const Real p5_3N_x = c2 * p5_5N_x + s2 * p5_4N_x;
+  const Real p5_3N_x = c2 * p5_5N_x + s2 * (c3 * p5_5N_y);
   const Real L_5_3 = p5_5N_x * Real(24999.999999999996);
   const Real H5_3_3 = S3b_zz - p5_5N_x * L_5_3;
-  const Real t408 = p5_4N_y * L_5_3;
-  const Real H5_3_2 = S3b_yz + t408;
-  const Real H5_3_1 = t408 - (s2 * t97 - (S3b_yz - c2 * t353));
-  const Real H5_3_0 = p5_3N_x * L_5_3 - (p3_2l_x - (c2 * p3_3n_x + s2 * S3b_xz));
+  const Real H5_3_2 = S3b_yz + p5_4N_y * L_5_3;
+  const Real H5_3_1 = H5_3_2 - (c2 * t352 + s2 * t97);
+  const Real H5_3_0 = c2 * p3_3n_x - (p5_3N_x * L_5_3 + (s2 * S3b_xz - p3_2l_x));
   const Real L_5_2 = p5_4N_y * Real(24999.999999999996);
-  const Real t418 = p5_4N_y * L_5_2;
-  const Real t419 = p5_3N_x * L_5_2;
+  const Real t416 = p5_4N_y * L_5_2;
+  const Real t417 = p5_3N_x * L_5_2;
   const Real L_5_0 = p5_3N_x * Real(24999.999999999996);
-  const Real u5_3 = b_5 * L_5_3 - (input.u[3] + (bn4_x - (w3pp_y * bKy3 - (w2_z * bKx3 + (h3b_y * ba3o_y -
-      (h3b_x * ba3o_z - (S3b_zz * bal3p_x + S3b_xz * bal3p_y)))))));
-  const Real t431 = b_5 * L_5_2;
+  const Real u5_3 = w2_z * bKx3 + (bn4_x + (h3b_y * ba3o_y + (S3b_zz * bal3p_x - (h3b_x * ba3o_z - (S3b_xz *
+      bal3p_y + input.u[3]))))) - (w3pp_y * bKy3 + b_5 * L_5_3);
+  const Real t429 = b_5 * L_5_2;
   const Real L_4_2 = p4_3n_z * Real(1557.24430048586);
   const Real L_4_1 = p4_2n_z * Real(1557.24430048586);
   const Real L_4_0 = p4_2n_x * Real(1557.24430048586);
   const Real invD_3 = Real(1.0) / H5_3_3;
   const Real L_3_2 = H5_3_2 * invD_3;
-  const Real H3_2_2 = H5_3_2 * L_3_2 + (p4_3n_z * L_4_2 + (S2b_zz + t418));
-  const Real H3_2_1 = H5_3_1 * L_3_2 + (p4_2n_z * L_4_2 + (E2 + t418));
-  const Real H3_2_0 = H5_3_0 * L_3_2 + (p4_2n_x * L_4_2 + (S2b_xz + t419));
+  const Real H3_2_2 = H5_3_2 * L_3_2 + (S2b_zz + (t416 + p4_3n_z * L_4_2));
+  const Real H3_2_1 = H5_3_1 * L_3_2 + (E2 + (t416 + p4_2n_z * L_4_2));
+  const Real H3_2_0 = H5_3_0 * L_3_2 - (S2b_xz + (t417 - p4_2n_x * L_4_2));
   const Real L_3_1 = H5_3_1 * invD_3;
   const Real L_3_0 = H5_3_0 * invD_3;
-  const Real u3_2 = u5_3 * L_3_2 + (b_4 * L_4_2 + (t431 - (input.u[2] + (bn3c_z - (h2b_y * ba2o_x - (h2b_x *
-      ba2o_y - state.z[0] * t157))))));
+  const Real u3_2 = state.z[0] * t157 - (u5_3 * L_3_2 - (bn3c_z - (b_4 * L_4_2 - (t429 + (h2b_y * ba2o_x -
+      (h2b_x * ba2o_y + input.u[2]))))));
   const Real invD_2 = Real(1.0) / H3_2_2;
   const Real L_2_1 = H3_2_1 * invD_2;
-  const Real H2_1_1 = H3_2_1 * L_2_1 - (H5_3_1 * L_3_1 + (p4_2n_z * L_4_1 + (J1 + t418)));
-  const Real H2_1_0 = H3_2_0 * L_2_1 - (H5_3_0 * L_3_1 + (p4_2n_x * L_4_1 + (t419 - (c1 * Real(0.023751) + (s1
-      * Real(0.6903913435) - (S2b_xz - t353))))));
+  const Real H2_1_1 = H3_2_1 * L_2_1 - (J1 + (H5_3_1 * L_3_1 + (t416 + p4_2n_z * L_4_1)));
+  const Real H2_1_0 = H3_2_0 * L_2_1 - (H5_3_0 * L_3_1 - (S2b_xz - (p4_2n_x * L_4_1 - (t417 - (t352 + (s1 *
+      Real(0.6903913435) + c1 * Real(0.023751)))))));
   const Real L_2_0 = H3_2_0 * invD_2;
-  const Real u2_1 = u3_2 * L_2_1 - (u5_3 * L_3_1 + (b_4 * L_4_1 + (t431 - (input.u[1] + (r2_y * bf2_x + (r2_x
-      * bf2_y + (bn3c_z - (h1_y * Real(9.81) + state.z[0] * bKy1))))))));
+  const Real u2_1 = u3_2 * L_2_1 - (state.z[0] * bKy1 - (u5_3 * L_3_1 - (bn3c_z + r2_x * bf2_y + (r2_y * bf2_x
+      - (b_4 * L_4_1 - (t429 + (h1_y * Real(9.81) - input.u[1])))))));
   const Real invD_1 = Real(1.0) / H2_1_1;
   const Real L_1_0 = H2_1_0 * invD_1;
-  const Real H1_0_0 = J1 - (S3c_xx - (s2 * S2b_t - (Real(2.0) * t348 - (s1 * S1b_t - (S3b_yy + (h3b_y *
-      Real(0.3001) - (p5_3N_x * L_5_0 + (p4_2n_x * L_4_0 + (H5_3_0 * L_3_0 - (H3_2_0 * L_2_0 - H2_1_0 *
-      L_1_0)))))))))) - Real(1.3886631711250002);
-  const Real u1_0 = u2_1 * L_1_0 - (u3_2 * L_2_0 - (u5_3 * L_3_0 + (b_4 * L_4_0 + (b_5 * L_5_0 + (input.u[0] -
-      (r2_y * bf2_z - (Real(2.0) * (state.z[1] * bKy1) - (S1_yz * zz_1 + (s2 * bn3c_y - (c2 * bn3c_x - (S2b_yz
-      * zz_2 - bKy2 * z2_2)))))))))));
+  const Real H1_0_0 = H2_1_0 * L_1_0 - (H3_2_0 * L_2_0 - (s2 * S2b_t + (J1 + (H5_3_0 * L_3_0 - (S3b_yy -
+      (p4_2n_x * L_4_0 - (Real(2.0) * t347 - (p5_3N_x * L_5_0 - (h3b_y * Real(0.3001) +
+      Real(1.3886631711250002) + (S3c_xx - s1 * S1b_t))))))))));
+  const Real u1_0 = u2_1 * L_1_0 - (bKy1 * (Real(2.0) * state.z[1]) + bKy2 * z2_2 + (u3_2 * L_2_0 - (s2 *
+      bn3c_y - (S2b_yz * (state.z[2] * state.z[2]) + input.u[0] + (S1_yz * zz_1 + b_5 * L_5_0)) - (u5_3 *
+      L_3_0 + (c2 * bn3c_x - (r2_y * bf2_z - b_4 * L_4_0))))));
   const Real y_0 = u1_0 / H1_0_0;
   const Real y_1 = u2_1 * invD_1;
   const Real zdot_1 = y_1 - L_1_0 * y_0;
   const Real y_2 = u3_2 * invD_2;
-  const Real zdot_2 = L_2_0 * y_0 - (y_2 - L_2_1 * zdot_1);
+  const Real zdot_2 = L_2_1 * zdot_1 - (y_2 - L_2_0 * y_0);
   const Real y_3 = u5_3 * invD_3;
-  const Real zdot_3 = L_3_0 * y_0 + (L_3_1 * zdot_1 - (y_3 + L_3_2 * zdot_2));
+  const Real zdot_3 = L_3_2 * zdot_2 - (L_3_1 * zdot_1 + (y_3 + L_3_0 * y_0));
   const Real y_4 = b_4 * Real(1557.24430048586);
-  const Real zdot_4 = L_4_0 * y_0 + (L_4_1 * zdot_1 - (y_4 + L_4_2 * zdot_2));
+  const Real zdot_4 = L_4_2 * zdot_2 - (L_4_1 * zdot_1 + (y_4 + L_4_0 * y_0));
   const Real y_5 = b_5 * Real(24999.999999999996);
-  const Real zdot_5 = L_5_2 * (zdot_1 - zdot_2) + (L_5_0 * y_0 - (y_5 - L_5_3 * zdot_3));
-  zdot[0] = -y_0;
+  const Real zdot_5 = L_5_3 * zdot_3 - (L_5_2 * (zdot_1 - zdot_2) - (y_5 + L_5_0 * y_0));
+  zdot[0] = y_0;
   zdot[1] = zdot_1;
   zdot[2] = -zdot_2;
-  zdot[3] = zdot_3;
-  zdot[4] = -zdot_4;
-  zdot[5] = -zdot_5;
+  zdot[3] = -zdot_3;
+  zdot[4] = zdot_4;
+  zdot[5] = zdot_5;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -867,7 +819,6 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real aL1w_y = s1 * state.z[0];
   const Real t154 = s1 * zdot[0];
   const Real t155 = c1 * ala1A_y;
-  const Real aL1al_y = t154 + t155;
   const Real aL1w00 = aL1w_x * aL1w_x;
   const Real aL1w01 = aL1w_x * aL1w_y;
   const Real aL1w11 = aL1w_y * aL1w_y;
@@ -875,22 +826,14 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real aL1U0_y = zdot[1] + aL1w01;
   const Real aL1U1_x = zdot[1] - aL1w01;
   const Real aL1U1_y = ala2w22 + aL1w00;
-  const Real aL1U2_x = t155 + aL1al_y;
+  const Real aL1U2_x = t155 + (t154 + t155);
   const Real aL1U2_y = ala2o_z * Real(2.3158869847151458);
-  const Real aL1n_x = (ala2w00 - aL1U1_y) * Real(0.6903913435) - (aL1U2_x * Real(0.0070991999999999965) +
-      (aL1U1_x * Real(0.023751) - aL1U2_y * Real(1.6749876019999999)));
-  const Real aL1n_y = Real(0.023751) * (ala2w00 - aL1U0_x) + (aL1U2_y * Real(0.0070991999999999965) - (aL1U2_x
-      * Real(0.07312639999999992) - aL1U0_y * Real(0.6903913435)));
+  const Real aL1n_x = aL1U1_x * Real(0.023751) + aL1U2_x * Real(0.0070991999999999965) - (aL1U2_y *
+      Real(1.6749876019999999) + (ala2w00 - aL1U1_y) * Real(0.6903913435));
+  const Real aL1n_y = aL1U2_x * Real(0.07312639999999992) - aL1U0_y * Real(0.6903913435) - (aL1U2_y *
+      Real(0.0070991999999999965) + Real(0.023751) * (ala2w00 - aL1U0_x));
   const Real aL2U1_x = ala2A_z + ala3w01;
   const Real aL2U2_x = t73 - ala3al_y;
-  const Real aL2f_x = ala3U0_y * Real(0.025374999999999998) - ala4U2_z * Real(0.8913300000000001);
-  const Real aL2f_y = ala3U1_y * Real(0.025374999999999998) + aL2U1_x * Real(0.8913300000000001);
-  const Real aL2n_x = (ala2w00 - ala3U1_y) * Real(0.0038075187499999994) + (ala2o_z *
-      Real(0.025374999999999998) + (aL2U2_x * Real(0.011273199) - (ala3U2_y * Real(0.0167651125) + aL2U1_x *
-      Real(0.1384816665))));
-  const Real aL2n_y = Real(0.1384816665) * (ala2w00 - ala4U2_z) + (ala3U0_y * Real(0.0038075187499999994) +
-      (ala2o_z * Real(0.8913300000000001) + (aL2U2_x * Real(0.34123495800000003) - ala3U2_y *
-      Real(0.011273199))));
   const Real aL3w01 = w4pp_x * w4pp_y;
   const Real aL3U0_y = ala3A_z - aL3w01;
   const Real aL3U1_x = ala3A_z + aL3w01;
@@ -913,53 +856,52 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real aL4f_y = aL4U1_x * Real(0.0028799999999999997);
   const Real aL4f_z = aL4U2_x * Real(0.0028799999999999997);
   const Real aL4n_x = aL4U2_y * Real(0.0002);
-  const Real aL4n_y = ala4o_y * Real(0.0028799999999999997) + aL4U2_x * Real(0.00042216);
   const Real aL4F_x = c4 * aL4f_x + s4 * aL4f_y;
   const Real aL4F_y = c4 * aL4f_y - s4 * aL4f_x;
   const Real aL5w_x = c5 * w5pp_y - s5 * w4_z;
   const Real aL5w_y = c5 * w4_z + s5 * w5pp_y;
   const Real aL5w02 = w5_z * aL5w_x;
   const Real aL5w12 = w5_z * aL5w_y;
-  const Real aL5U2_x = aL5w02 - (c5 * ala5A_y + s5 * ala5A_x);
-  const Real aL5U2_y = aL5w12 + (c5 * ala5A_x - s5 * ala5A_y);
+  const Real aL5U2_x = s5 * ala5A_x + (c5 * ala5A_y - aL5w02);
+  const Real aL5U2_y = c5 * ala5A_x - (s5 * ala5A_y - aL5w12);
   const Real aL5n_x = aL5U2_y * Real(2e-05);
   const Real aL5n_y = aL5U2_x * Real(2e-05);
   const Real aL5n_z = ala5A_z * Real(4e-05);
-  const Real aL5N_x = c5 * aL5n_x - s5 * aL5n_y;
-  const Real an4_z = s5 * aL5n_x + (c5 * aL5n_y - (aL4U1_x * Real(0.00042216) + (aL4a_y *
-      Real(0.0028799999999999997) + aL4U0_y * Real(0.0002))));
-  const Real t316 = aL4n_y + aL5N_x;
-  const Real t318 = aL4n_x + aL5n_z;
-  const Real an4c_x = c4 * t316 + (Real(0.4318) * aL4f_z + s4 * t318);
-  const Real an4c_y = an4_z - Real(0.4318) * aL4F_y;
+  const Real an4_z = aL4a_y * Real(0.0028799999999999997) + (aL4U0_y * Real(0.0002) + aL4U1_x *
+      Real(0.00042216)) + (c5 * aL5n_y - s5 * aL5n_x);
+  const Real t306 = s5 * aL5n_y + (c5 * aL5n_x + (ala4o_y * Real(0.0028799999999999997) + aL4U2_x *
+      Real(0.00042216)));
+  const Real t308 = aL4n_x + aL5n_z;
   const Real af3b_x = c3 * aL4F_y - s3 * aL4f_z;
   const Real af3b_y = c3 * aL4f_z + s3 * aL4F_y;
-  const Real an3_z = c4 * t318 - (s4 * t316 - (aL3U1_x * Real(0.00065) + aL3U0_y *
+  const Real an3_z = s4 * t306 - (c4 * t308 + (aL3U1_x * Real(0.00065) + aL3U0_y *
       Real(0.0007499999999999999)));
-  const Real an3c_x = Real(0.0203) * af3b_y + (an3_z + Real(0.15005) * af3b_x);
-  const Real t340 = aL3n_x + an4c_x;
-  const Real t342 = aL3n_y - an4c_y;
-  const Real an3c_y = c3 * t340 + (Real(0.15005) * aL4F_x + s3 * t342);
-  const Real t347 = aL2f_y + af3b_x;
-  const Real t349 = aL2f_x - aL4F_x;
-  const Real af2_x = s2 * t347 + c2 * t349;
-  const Real af2_y = s2 * t349 - c2 * t347;
+  const Real t327 = c4 * t306 + (s4 * t308 + (aL3n_x + Real(0.4318) * aL4f_z));
+  const Real t330 = an4_z + (aL3n_y + Real(0.4318) * aL4F_y);
+  const Real t334 = af3b_x + (ala3U1_y * Real(0.025374999999999998) + aL2U1_x * Real(0.8913300000000001));
+  const Real t337 = aL4F_x - (ala3U0_y * Real(0.025374999999999998) - ala4U2_z * Real(0.8913300000000001));
+  const Real af2_x = s2 * t334 - c2 * t337;
+  const Real af2_y = s2 * t337 + c2 * t334;
   const Real af2_z = af3b_y + (ala3U2_y * Real(0.025374999999999998) - aL2U2_x * Real(0.8913300000000001));
-  const Real an2_z = c3 * t342 - (s3 * t340 - (Real(0.011273199) * (ala3U1_y - ala4U2_z) - (Real(0.0203) *
-      aL4F_x + (ala3U0_z * Real(0.0038075187499999994) + (ala3p_y * Real(0.8913300000000001) - (ala3p_x *
-      Real(0.025374999999999998) + (aL2U1_x * Real(0.34123495800000003) + (ala3U0_y * Real(0.0167651125) +
-      ala3U1_z * Real(0.1384816665)))))))));
-  const Real an2c_z = Real(0.0070991999999999965) * (aL1U0_x - aL1U1_y) + (r2_y * af2_x - (r2_x * af2_y + (c1
-      * Real(37.2347379) + (aL1U0_y * Real(1.6749876019999999) - (s1 * Real(1.024164) + (t63 *
-      Real(0.05500463177396943) + (t154 * Real(0.6903913435) - (aL1U1_x * Real(0.07312639999999992) +
-      an2_z))))))));
-  const Real an0_z = s2 * (aL2n_y - an3c_y) + (c2 * (aL2n_x - an3c_x) + (r2_y * af2_z + (s1 * aL1n_y - (aL0n_z
-      + c1 * aL1n_x))));
-  tau[0] = -an0_z;
+  const Real an2_z = s3 * t327 - (c3 * t330 - (Real(0.0203) * aL4F_x - (Real(0.011273199) * (ala3U1_y -
+      ala4U2_z) + (aL2U1_x * Real(0.34123495800000003) + ala3p_x * Real(0.025374999999999998) - (ala3p_y *
+      Real(0.8913300000000001) - (ala3U0_y * Real(0.0167651125) + (ala3U1_z * Real(0.1384816665) - ala3U0_z *
+      Real(0.0038075187499999994))))))));
+  const Real an2c_z = an2_z + (r2_y * af2_x + (r2_x * af2_y - (aL1U1_x * Real(0.07312639999999992) + aL1U0_y *
+      Real(1.6749876019999999) - (Real(0.0070991999999999965) * (aL1U0_x - aL1U1_y) + (t63 *
+      Real(0.05500463177396943) + (t154 * Real(0.6903913435) + (s1 * Real(1.024164) - c1 *
+      Real(37.2347379))))))));
+  const Real an0_z = s2 * (c3 * t327 + (s3 * t330 + (Real(0.15005) * aL4F_x - (Real(0.1384816665) * (ala2w00 -
+      ala4U2_z) + (aL2U2_x * Real(0.34123495800000003) + ala2o_z * Real(0.8913300000000001) - (ala3U2_y *
+      Real(0.011273199) - ala3U0_y * Real(0.0038075187499999994))))))) - (c2 * (an3_z - (Real(0.0203) * af3b_y
+      + (Real(0.15005) * af3b_x + (aL2U1_x * Real(0.1384816665) - aL2U2_x * Real(0.011273199) - ((ala2w00 -
+      ala3U1_y) * Real(0.0038075187499999994) - (ala3U2_y * Real(0.0167651125) - ala2o_z *
+      Real(0.025374999999999998))))))) + (r2_y * af2_z - (s1 * aL1n_y + (aL0n_z - c1 * aL1n_x))));
+  tau[0] = an0_z;
   tau[1] = -an2c_z;
-  tau[2] = an2_z;
-  tau[3] = -an3_z;
-  tau[4] = -an4_z;
+  tau[2] = -an2_z;
+  tau[3] = an3_z;
+  tau[4] = an4_z;
   tau[5] = -aL5n_z;
 }
 
@@ -989,24 +931,24 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real h3b_y = s3 * h4b_y;
   const Real h3c_x = h4b_x + Real(0.8913300000000001);
   const Real h3c_y = h3b_x - Real(0.025374999999999998);
-  const Real S3c_xx = S4b_xx - h4b_x * Real(0.8636) - Real(0.34123495800000003);
-  const Real S3c_xy = S3b_xz - h4b_x * Real(0.0203) - Real(0.011273199);
-  const Real S3c_xz = h4b_x * Real(0.15005) + (S3b_yz + Real(0.1384816665));
-  const Real S3c_yy = h3b_x * Real(0.0406) - (S3b_xx + Real(0.0167651125));
-  const Real S3c_yz = h3b_y * Real(0.0203) - (S3b_xy + h3b_x * Real(0.15005)) + Real(0.0038075187499999994);
-  const Real S2b_zz = S3c_xx + S3c_yy;
-  const Real S2b_d = S3c_xx - S3c_yy;
-  const Real S2b_t = c2 * S3c_xy * Real(2.0) + s2 * S2b_d;
-  const Real S2b_xz = c2 * S3c_xz - s2 * S3c_yz;
+  const Real S3c_xx = S4b_xx - (h4b_x * Real(0.8636) + Real(0.34123495800000003));
+  const Real S3c_xy = S3b_xz - (h4b_x * Real(0.0203) + Real(0.011273199));
+  const Real S3c_xz = S3b_yz + (h4b_x * Real(0.15005) + Real(0.1384816665));
+  const Real S3c_yy = S3b_xx - (h3b_x * Real(0.0406) - Real(0.0167651125));
+  const Real S3c_yz = S3b_xy - (h3b_y * Real(0.0203) - (h3b_x * Real(0.15005) - Real(0.0038075187499999994)));
+  const Real S2b_zz = S3c_xx - S3c_yy;
+  const Real S2b_d = S3c_xx + S3c_yy;
+  const Real S2b_t = S3c_xy * (c2 * Real(2.0)) + s2 * S2b_d;
+  const Real S2b_xz = c2 * S3c_xz + s2 * S3c_yz;
   const Real h2b_x = c2 * h3c_x + s2 * h3c_y;
   const Real h2b_y = c2 * h3c_y - s2 * h3c_x;
   const Real t94 = r2_x * h2b_x;
   const Real D2 = t94 - r2_y * h2b_y;
   const Real S1b_t = s1 * Real(1.601861202) + c1 * Real(0.014198399999999993);
-  const Real J1 = D2 + (S2b_zz + D2) - Real(1.748114002);
-  const Real S1_xz = c1 * Real(0.023751) + (s1 * Real(0.6903913435) - (S2b_xz - r2_x * h3b_y));
-  const Real S0b_zz = J1 - (S3c_xx - (s2 * S2b_t - (Real(2.0) * t94 - (s1 * S1b_t - (S3b_zz - (S3b_xx - h3b_y
-      * Real(0.3001))))))) - Real(1.3886631711250002);
+  const Real J1 = S2b_zz + (D2 + (D2 - Real(1.748114002)));
+  const Real S1_xz = S2b_xz - (r2_x * h3b_y + (s1 * Real(0.6903913435) + c1 * Real(0.023751)));
+  const Real S0b_zz = s2 * S2b_t + (J1 + (S3b_xx - (Real(2.0) * t94 + (S3c_xx - s1 * S1b_t + (S3b_zz + (h3b_y
+      * Real(0.3001) + Real(1.3886631711250002)))))));
   const Real w2_z = state.z[1] + state.z[2];
   const Real w3pp_x = c2 * state.z[0];
   const Real w3pp_y = s2 * state.z[0];
@@ -1014,34 +956,25 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real w4pp_x = c3 * w3pp_y - s3 * w2_z;
   const Real w4pp_y = c3 * w2_z + s3 * w3pp_y;
   const Real w5pp_x = c4 * w3_z + s4 * w4pp_x;
-  const Real v0L_z = S0b_zz * state.z[0];
   const Real v1L_x = S1_xz * state.z[1];
-  const Real v1L_z = J1 * state.z[1];
   const Real v2o_x = r2_y * state.z[1];
   const Real v2o_y = r2_x * state.z[1];
   const Real v2o_z = r2_y * state.z[0];
-  const Real v2P_x = h2b_y * state.z[2];
-  const Real v2P_y = h2b_x * state.z[2];
   const Real v2L_x = S2b_xz * state.z[2];
   const Real v2L_z = S2b_zz * state.z[2];
-  const Real v3o_x = Real(0.0203) * w2_z - (Real(0.15005) * w3pp_y + (c2 * v2o_x - s2 * v2o_y));
+  const Real v3o_x = c2 * v2o_x - Real(0.0203) * w2_z - (s2 * v2o_y - Real(0.15005) * w3pp_y);
   const Real v3o_y = Real(0.15005) * w3pp_x - (c2 * v2o_y + s2 * v2o_x);
   const Real v3o_z = v2o_z - Real(0.0203) * w3pp_x;
-  const Real v3P_x = h3b_y * state.z[3];
-  const Real v3P_y = h3b_x * state.z[3];
-  const Real v3L_x = S3b_xz * state.z[3];
-  const Real v3L_y = S3b_yz * state.z[3];
   const Real v3L_z = S3b_zz * state.z[3];
   const Real v4o_x = Real(0.4318) * w4pp_y + (c3 * v3o_y - s3 * v3o_z);
-  const Real v4P_x = h4b_y * state.z[4];
-  const Real v4P_y = h4b_x * state.z[4];
   const Real v4L_z = state.z[4] * Real(0.00064216);
   const Real v5L_z = state.z[5] * Real(4e-05);
-  const Real T5 = (state.z[0] * v0L_z + (state.z[1] * v1L_z + (state.z[2] * v2L_z - (state.z[3] * v3L_z +
-      (state.z[4] * v4L_z + state.z[5] * v5L_z))))) * Real(0.5) + (state.z[0] * (v1L_x - v2L_x) + (w5pp_x *
-      v5L_z - (v4o_x * v4P_y - (v3o_x * v4P_x - (w4pp_y * v4L_z - (v3o_z * v3P_y + (v3o_y * v3P_x - (w3pp_y *
-      v3L_x - (w3pp_x * v3L_z + (w2_z * v3L_y + (v2o_y * v2P_y + (state.z[1] * v2L_z - v2o_x *
-      v2P_x))))))))))));
+  const Real T5 = (S0b_zz * (state.z[0] * state.z[0]) + (state.z[2] * v2L_z + (J1 * (state.z[1] * state.z[1])
+      - (state.z[3] * v3L_z + (state.z[4] * v4L_z + state.z[5] * v5L_z))))) * Real(0.5) - (state.z[0] * (v1L_x
+      + v2L_x) - (state.z[1] * v2L_z + (w3pp_x * v3L_z - v3o_x * (h4b_y * state.z[4]) - (h2b_y * (state.z[2] *
+      v2o_x) - h2b_x * (state.z[2] * v2o_y) - (v3o_y * (h3b_y * state.z[3]) + v3o_z * (h3b_x * state.z[3]))) -
+      (v4o_x * (h4b_x * state.z[4]) - (w5pp_x * v5L_z - (w4pp_y * v4L_z - (S3b_yz * (w2_z * state.z[3]) -
+      S3b_xz * (w3pp_y * state.z[3]))))))));
   return -T5;
 }
 
@@ -1055,12 +988,10 @@ Real potential_energy(const Model<Real>&, const State<Real>& state) noexcept {
   Real s4, c4;
   detail::sine_cosine(state.y[4], s4, c4);
   const Real h4b_x = c4 * Real(0.0028799999999999997);
-  const Real h3b_x = Real(0.0028799999999999997) * (c3 * s4);
+  const Real h3b_x = s4 * (c3 * Real(0.0028799999999999997));
   const Real h3c_x = h4b_x + Real(0.8913300000000001);
   const Real h3c_y = h3b_x - Real(0.025374999999999998);
-  const Real h2b_x = c2 * h3c_x + s2 * h3c_y;
-  const Real h1b_x = c1 * Real(0.10439999999999999) + s1 * Real(3.79559);
-  const Real h1_x = h2b_x - h1b_x;
+  const Real h1_x = s2 * h3c_y + (c2 * h3c_x - (c1 * Real(0.10439999999999999) + s1 * Real(3.79559)));
   const Real V = h1_x * Real(9.81);
   return -V;
 }

@@ -97,17 +97,17 @@ void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[7]
   const Real half_0_0 = state.z[3] * Real(0.5);
   const Real half_0_1 = Real(0.5) * state.z[4];
   const Real half_0_2 = Real(0.5) * state.z[5];
-  const Real qdot_0_0 = half_0_0 * state.y[4] + half_0_1 * state.y[5] + half_0_2 * state.y[6];
-  const Real qdot_0_1 = half_0_0 * state.y[3] + half_0_2 * state.y[5] - half_0_1 * state.y[6];
-  const Real qdot_0_2 = half_0_1 * state.y[3] - half_0_2 * state.y[4] + half_0_0 * state.y[6];
-  const Real qdot_0_3 = half_0_2 * state.y[3] + half_0_1 * state.y[4] - half_0_0 * state.y[5];
+  const Real qdot_0_0 = half_0_2 * state.y[6] + (half_0_0 * state.y[4] + half_0_1 * state.y[5]);
+  const Real qdot_0_1 = half_0_1 * state.y[6] - (half_0_0 * state.y[3] + half_0_2 * state.y[5]);
+  const Real qdot_0_2 = half_0_0 * state.y[6] + (half_0_1 * state.y[3] - half_0_2 * state.y[4]);
+  const Real qdot_0_3 = half_0_0 * state.y[5] - (half_0_2 * state.y[3] + half_0_1 * state.y[4]);
   ydot[0] = state.z[0];
   ydot[1] = state.z[1];
   ydot[2] = state.z[2];
   ydot[3] = -qdot_0_0;
-  ydot[4] = qdot_0_1;
+  ydot[4] = -qdot_0_1;
   ydot[5] = qdot_0_2;
-  ydot[6] = qdot_0_3;
+  ydot[6] = -qdot_0_3;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -137,21 +137,21 @@ void mass_matrix(const Model<Real>&, const State<Real>&, Real (&M)[6][6]) noexce
 
 template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept {
-  const Real kSu0_x = state.z[5] * Real(7.18277e-07) + state.z[4] * Real(8.30806e-07) - state.z[3] *
-      Real(1.4672772e-05);
-  const Real kSu0_y = Real(8.30806e-07) * state.z[3] + state.z[5] * Real(1.800197e-06) - state.z[4] *
-      Real(1.458888e-05);
-  const Real kSu0_z = state.z[5] * Real(1.9828299999999994e-06) - Real(7.18277e-07) * state.z[3] - state.z[4]
-      * Real(1.800197e-06);
+  const Real kSu0_x = state.z[3] * Real(1.4672772e-05) - (state.z[5] * Real(7.18277e-07) + state.z[4] *
+      Real(8.30806e-07));
+  const Real kSu0_y = state.z[4] * Real(1.458888e-05) - (Real(8.30806e-07) * state.z[3] + state.z[5] *
+      Real(1.800197e-06));
+  const Real kSu0_z = state.z[4] * Real(1.800197e-06) - (state.z[5] * Real(1.9828299999999994e-06) -
+      Real(7.18277e-07) * state.z[3]);
   const Real kdn0_x = state.z[4] * kSu0_z + state.z[5] * kSu0_y;
   const Real kdn0_y = state.z[3] * kSu0_z + state.z[5] * kSu0_x;
   const Real kdn0_z = state.z[3] * kSu0_y - state.z[4] * kSu0_x;
   k[0] = Real(0.0);
   k[1] = Real(0.0);
   k[2] = Real(0.0);
-  k[3] = kdn0_x;
-  k[4] = -kdn0_y;
-  k[5] = -kdn0_z;
+  k[3] = -kdn0_x;
+  k[4] = kdn0_y;
+  k[5] = kdn0_z;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -169,7 +169,7 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real q001 = q0d1 * state.y[3];
   const Real q002 = q0d2 * state.y[3];
   const Real q003 = q0d3 * state.y[3];
-  const Real q0r0_x = q022 + q033 - Real(1.0);
+  const Real q0r0_x = q033 + (q022 - Real(1.0));
   const Real q0r0_y = q012 - q003;
   const Real q0r0_z = q013 + q002;
   const Real q0r1_x = q012 + q003;
@@ -183,32 +183,32 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real force2m_x = Real(0.0325) * input.u[1];
   const Real force3m_x = Real(0.0325) * input.u[2];
   const Real force4m_x = Real(0.0325) * input.u[3];
-  const Real force4sn_x = force4m_x + (force3m_x - (force1m_x + force2m_x));
-  const Real force4sn_y = force4m_x - (force3m_x - (force1m_x - force2m_x));
-  const Real force4sn_z = (input.u[3] - (input.u[2] + (input.u[0] - input.u[1]))) * Real(0.005964552);
-  const Real vrel0_x = q0r2_x * state.z[2] - (q0r0_x * state.z[0] - q0r1_x * state.z[1]);
-  const Real vrel0_y = q0r2_y * state.z[2] + (q0r0_y * state.z[0] - q0r1_y * state.z[1]);
+  const Real force4sn_x = force1m_x + force2m_x - (force3m_x + force4m_x);
+  const Real force4sn_y = force1m_x - force2m_x - (force3m_x - force4m_x);
+  const Real force4sn_z = (input.u[0] - input.u[1] + (input.u[2] - input.u[3])) * Real(0.005964552);
+  const Real vrel0_x = q0r0_x * state.z[0] - (q0r1_x * state.z[1] + q0r2_x * state.z[2]);
+  const Real vrel0_y = q0r1_y * state.z[1] - (q0r0_y * state.z[0] + q0r2_y * state.z[2]);
   const Real vrel0_z = q0r2_z * state.z[2] - (q0r0_z * state.z[0] + q0r1_z * state.z[1]);
-  const Real framev0pp_x = q0r0_z * vrel0_z + (q0r0_x * vrel0_x - q0r0_y * vrel0_y);
+  const Real framev0pp_x = q0r0_z * vrel0_z - (q0r0_x * vrel0_x - q0r0_y * vrel0_y);
   const Real expression = framev0pp_x * model.drag;
-  const Real framev0pp_y = q0r1_z * vrel0_z - (q0r1_x * vrel0_x - q0r1_y * vrel0_y);
+  const Real framev0pp_y = q0r1_z * vrel0_z + (q0r1_x * vrel0_x - q0r1_y * vrel0_y);
   const Real expression_2 = model.drag * framev0pp_y;
-  const Real framev0pp_z = q0r2_z * vrel0_z + (q0r2_x * vrel0_x + q0r2_y * vrel0_y);
+  const Real framev0pp_z = q0r2_z * vrel0_z - (q0r2_x * vrel0_x + q0r2_y * vrel0_y);
   const Real expression_3 = model.drag * framev0pp_z;
   const Real force5f0_x = q0r2_x * expression_3 + (q0r0_x * expression - q0r1_x * expression_2);
   const Real force5f0_y = q0r2_y * expression_3 - (q0r0_y * expression - q0r1_y * expression_2);
-  const Real force5sf_z = q0r2_z * expression_3 + (q0r1_z * expression_2 + (q0r0_z * expression + (input.u[3]
-      + (input.u[2] + (input.u[0] + input.u[1])))));
+  const Real force5sf_z = q0r0_z * expression + (input.u[0] + input.u[1] + (input.u[2] + input.u[3])) +
+      (q0r1_z * expression_2 + q0r2_z * expression_3);
   const Real qext0f_x = q0r0_z * force5sf_z + (q0r0_x * force5f0_x - q0r0_y * force5f0_y);
   const Real qext0f_y = q0r1_z * force5sf_z - (q0r1_x * force5f0_x - q0r1_y * force5f0_y);
-  const Real q_2 = q0r2_z * force5sf_z + (q0r2_x * force5f0_x + q0r2_y * force5f0_y) +
-      Real(0.27468000000000004);
+  const Real q_2 = q0r2_x * force5f0_x + Real(0.27468000000000004) + (q0r2_y * force5f0_y + q0r2_z *
+      force5sf_z);
   q[0] = -qext0f_x;
   q[1] = -qext0f_y;
   q[2] = q_2;
-  q[3] = -force4sn_x;
+  q[3] = force4sn_x;
   q[4] = force4sn_y;
-  q[5] = -force4sn_z;
+  q[5] = force4sn_z;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -226,7 +226,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real q001 = q0d1 * state.y[3];
   const Real q002 = q0d2 * state.y[3];
   const Real q003 = q0d3 * state.y[3];
-  const Real q0r0_x = q022 + q033 - Real(1.0);
+  const Real q0r0_x = q033 + (q022 - Real(1.0));
   const Real q0r0_y = q012 - q003;
   const Real q0r0_z = q013 + q002;
   const Real q0r1_x = q012 + q003;
@@ -240,33 +240,33 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real force2m_x = Real(0.0325) * input.u[1];
   const Real force3m_x = Real(0.0325) * input.u[2];
   const Real force4m_x = Real(0.0325) * input.u[3];
-  const Real vrel0_x = q0r2_x * state.z[2] - (q0r0_x * state.z[0] - q0r1_x * state.z[1]);
-  const Real vrel0_y = q0r2_y * state.z[2] + (q0r0_y * state.z[0] - q0r1_y * state.z[1]);
+  const Real vrel0_x = q0r0_x * state.z[0] - (q0r1_x * state.z[1] + q0r2_x * state.z[2]);
+  const Real vrel0_y = q0r1_y * state.z[1] - (q0r0_y * state.z[0] + q0r2_y * state.z[2]);
   const Real vrel0_z = q0r2_z * state.z[2] - (q0r0_z * state.z[0] + q0r1_z * state.z[1]);
-  const Real framev0pp_x = q0r0_z * vrel0_z + (q0r0_x * vrel0_x - q0r0_y * vrel0_y);
+  const Real framev0pp_x = q0r0_z * vrel0_z - (q0r0_x * vrel0_x - q0r0_y * vrel0_y);
   const Real expression = framev0pp_x * model.drag;
-  const Real framev0pp_y = q0r1_z * vrel0_z - (q0r1_x * vrel0_x - q0r1_y * vrel0_y);
+  const Real framev0pp_y = q0r1_z * vrel0_z + (q0r1_x * vrel0_x - q0r1_y * vrel0_y);
   const Real expression_2 = model.drag * framev0pp_y;
-  const Real framev0pp_z = q0r2_z * vrel0_z + (q0r2_x * vrel0_x + q0r2_y * vrel0_y);
+  const Real framev0pp_z = q0r2_z * vrel0_z - (q0r2_x * vrel0_x + q0r2_y * vrel0_y);
   const Real expression_3 = model.drag * framev0pp_z;
   const Real force5f0_x = q0r2_x * expression_3 + (q0r0_x * expression - q0r1_x * expression_2);
   const Real force5f0_y = q0r2_y * expression_3 - (q0r0_y * expression - q0r1_y * expression_2);
-  const Real force5sf_z = q0r2_z * expression_3 + (q0r1_z * expression_2 + (q0r0_z * expression + (input.u[3]
-      + (input.u[2] + (input.u[0] + input.u[1])))));
+  const Real force5sf_z = q0r0_z * expression + (input.u[0] + input.u[1] + (input.u[2] + input.u[3])) +
+      (q0r1_z * expression_2 + q0r2_z * expression_3);
   const Real bSu0_x = state.z[3] * Real(1.4672772e-05) - (state.z[5] * Real(7.18277e-07) + state.z[4] *
       Real(8.30806e-07));
   const Real bSu0_y = state.z[4] * Real(1.458888e-05) - (Real(8.30806e-07) * state.z[3] + state.z[5] *
       Real(1.800197e-06));
   const Real bSu0_z = state.z[4] * Real(1.800197e-06) - (state.z[5] * Real(1.9828299999999994e-06) -
       Real(7.18277e-07) * state.z[3]);
-  const Real ben0_z = (input.u[3] - (input.u[2] + (input.u[0] - input.u[1]))) * Real(0.005964552) +
-      (state.z[3] * bSu0_y - state.z[4] * bSu0_x);
+  const Real ben0_z = state.z[4] * bSu0_x - (state.z[3] * bSu0_y - (input.u[0] - input.u[1] + (input.u[2] -
+      input.u[3])) * Real(0.005964552));
   const Real U0_5fn_x = ben0_z * Real(0.024546700234149458);
   const Real U0_5fn_y = ben0_z * Real(0.061520689262520106);
-  const Real U0_4u = U0_5fn_y - (state.z[5] * bSu0_x + (state.z[3] * bSu0_z - (force4m_x - (force3m_x -
-      (force1m_x - force2m_x)))));
-  const Real U0_3u = U0_4u * Real(0.047544521610824765) - (U0_5fn_x + (state.z[5] * bSu0_y + (state.z[4] *
-      bSu0_z - (force4m_x + (force3m_x - (force1m_x + force2m_x))))));
+  const Real U0_4u = U0_5fn_y + (state.z[5] * bSu0_x + (state.z[3] * bSu0_z - (force1m_x - force2m_x -
+      (force3m_x - force4m_x))));
+  const Real U0_3u = U0_4u * Real(0.047544521610824765) - (U0_5fn_x - (state.z[5] * bSu0_y + (state.z[4] *
+      bSu0_z + (force1m_x + force2m_x - (force3m_x + force4m_x)))));
   const Real acc0u = force5f0_x * Real(35.714285714285715);
   const Real acc0u_2 = force5f0_y * Real(35.714285714285715);
   const Real acc0u_3 = force5sf_z * Real(35.714285714285715);
@@ -277,13 +277,13 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real zdot_5 = Real(0.061520689262520106) * zdot_4 + (acc0u_6 - Real(0.024546700234149458) * acc0u_4);
   const Real vdot0_x = q0r0_z * acc0u_3 + (q0r0_x * acc0u - q0r0_y * acc0u_2);
   const Real vdot0_y = q0r1_z * acc0u_3 - (q0r1_x * acc0u - q0r1_y * acc0u_2);
-  const Real zdot_2 = q0r2_z * acc0u_3 + (q0r2_x * acc0u + q0r2_y * acc0u_2) + Real(9.81);
+  const Real zdot_2 = q0r2_x * acc0u + Real(9.81) + (q0r2_y * acc0u_2 + q0r2_z * acc0u_3);
   zdot[0] = vdot0_x;
   zdot[1] = vdot0_y;
   zdot[2] = -zdot_2;
-  zdot[3] = acc0u_4;
-  zdot[4] = -zdot_4;
-  zdot[5] = zdot_5;
+  zdot[3] = -acc0u_4;
+  zdot[4] = zdot_4;
+  zdot[5] = -zdot_5;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -311,54 +311,54 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real q0r2_x = q013 - q002;
   const Real q0r2_y = q023 + q001;
   const Real q0r2_z = q022 + t23;
-  const Real vrel0_x = q0r0_x * state.z[0] - q0r1_x * state.z[1] - q0r2_x * state.z[2];
-  const Real vrel0_y = q0r0_y * state.z[0] - q0r1_y * state.z[1] + q0r2_y * state.z[2];
-  const Real vrel0_z = q0r0_z * state.z[0] + q0r1_z * state.z[1] - q0r2_z * state.z[2];
-  const Real framev0pp_x = q0r0_x * vrel0_x + q0r0_y * vrel0_y + q0r0_z * vrel0_z;
+  const Real vrel0_x = q0r0_x * state.z[0] - (q0r1_x * state.z[1] + q0r2_x * state.z[2]);
+  const Real vrel0_y = q0r1_y * state.z[1] - (q0r0_y * state.z[0] + q0r2_y * state.z[2]);
+  const Real vrel0_z = q0r2_z * state.z[2] - (q0r0_z * state.z[0] + q0r1_z * state.z[1]);
+  const Real framev0pp_x = q0r0_z * vrel0_z - (q0r0_x * vrel0_x - q0r0_y * vrel0_y);
   const Real expression = framev0pp_x * model.drag;
-  const Real framev0pp_y = q0r1_x * vrel0_x + q0r1_y * vrel0_y - q0r1_z * vrel0_z;
+  const Real framev0pp_y = q0r1_z * vrel0_z + (q0r1_x * vrel0_x - q0r1_y * vrel0_y);
   const Real expression_2 = model.drag * framev0pp_y;
-  const Real framev0pp_z = q0r2_x * vrel0_x - q0r2_y * vrel0_y + q0r2_z * vrel0_z;
+  const Real framev0pp_z = q0r2_z * vrel0_z - (q0r2_x * vrel0_x + q0r2_y * vrel0_y);
   const Real expression_3 = model.drag * framev0pp_z;
-  const Real force5f0_x = q0r0_x * expression + q0r1_x * expression_2 + q0r2_x * expression_3;
-  const Real force5f0_y = q0r0_y * expression + q0r1_y * expression_2 - q0r2_y * expression_3;
-  const Real force5f0_z = q0r0_z * expression - q0r1_z * expression_2 + q0r2_z * expression_3;
-  const Real aSu0_x = state.z[5] * Real(7.18277e-07) + state.z[4] * Real(8.30806e-07) - state.z[3] *
-      Real(1.4672772e-05);
-  const Real aSu0_y = Real(8.30806e-07) * state.z[3] + state.z[5] * Real(1.800197e-06) - state.z[4] *
-      Real(1.458888e-05);
-  const Real aSu0_z = state.z[5] * Real(1.9828299999999994e-06) - Real(7.18277e-07) * state.z[3] - state.z[4]
-      * Real(1.800197e-06);
-  const Real adn0_x = zdot[3] * Real(1.657171e-05) + Real(7.18277e-07) * zdot[5] + Real(8.30806e-07) * zdot[4]
-      - state.z[4] * aSu0_z - state.z[5] * aSu0_y;
-  const Real adn0_y = zdot[4] * Real(1.6655602e-05) + Real(8.30806e-07) * zdot[3] + Real(1.800197e-06) *
-      zdot[5] + state.z[3] * aSu0_z + state.z[5] * aSu0_x;
-  const Real adn0_z = Real(7.18277e-07) * zdot[3] + Real(1.800197e-06) * zdot[4] + zdot[5] *
-      Real(2.9261652e-05) + state.z[3] * aSu0_y - state.z[4] * aSu0_x;
-  const Real aext0f_x = q0r0_x * force5f0_x + q0r0_y * force5f0_y + q0r0_z * force5f0_z;
-  const Real aext0f_y = q0r1_x * force5f0_x + q0r1_y * force5f0_y - q0r1_z * force5f0_z;
-  const Real aext0f_z = q0r2_x * force5f0_x - q0r2_y * force5f0_y + q0r2_z * force5f0_z;
+  const Real force5f0_x = q0r2_x * expression_3 + (q0r0_x * expression - q0r1_x * expression_2);
+  const Real force5f0_y = q0r2_y * expression_3 - (q0r0_y * expression - q0r1_y * expression_2);
+  const Real force5f0_z = q0r2_z * expression_3 + (q0r0_z * expression + q0r1_z * expression_2);
+  const Real aSu0_x = state.z[3] * Real(1.4672772e-05) - (state.z[5] * Real(7.18277e-07) + state.z[4] *
+      Real(8.30806e-07));
+  const Real aSu0_y = state.z[4] * Real(1.458888e-05) - (Real(8.30806e-07) * state.z[3] + state.z[5] *
+      Real(1.800197e-06));
+  const Real aSu0_z = state.z[4] * Real(1.800197e-06) - (state.z[5] * Real(1.9828299999999994e-06) -
+      Real(7.18277e-07) * state.z[3]);
+  const Real adn0_x = state.z[5] * aSu0_y + (state.z[4] * aSu0_z + (Real(8.30806e-07) * zdot[4] + (zdot[3] *
+      Real(1.657171e-05) + Real(7.18277e-07) * zdot[5])));
+  const Real adn0_y = state.z[5] * aSu0_x + (state.z[3] * aSu0_z - (Real(1.800197e-06) * zdot[5] + (zdot[4] *
+      Real(1.6655602e-05) + Real(8.30806e-07) * zdot[3])));
+  const Real adn0_z = state.z[4] * aSu0_x - (state.z[3] * aSu0_y - (zdot[5] * Real(2.9261652e-05) +
+      (Real(7.18277e-07) * zdot[3] + Real(1.800197e-06) * zdot[4])));
   const Real fall0_z = zdot[2] + Real(9.81);
-  const Real tauf0 = aext0f_x + zdot[0] * Real(0.028);
-  const Real tauf1 = aext0f_y - Real(0.028) * zdot[1];
-  const Real tauf2 = aext0f_z - fall0_z * Real(0.028);
-  tau[0] = tauf0;
-  tau[1] = -tauf1;
-  tau[2] = -tauf2;
+  const Real tauf0 = q0r0_x * force5f0_x - zdot[0] * Real(0.028) - (q0r0_y * force5f0_y - q0r0_z *
+      force5f0_z);
+  const Real tauf1 = q0r1_x * force5f0_x + Real(0.028) * zdot[1] - (q0r1_y * force5f0_y + q0r1_z *
+      force5f0_z);
+  const Real tauf2 = q0r2_x * force5f0_x + fall0_z * Real(0.028) + (q0r2_y * force5f0_y + q0r2_z *
+      force5f0_z);
+  tau[0] = -tauf0;
+  tau[1] = tauf1;
+  tau[2] = tauf2;
   tau[3] = adn0_x;
-  tau[4] = adn0_y;
+  tau[4] = -adn0_y;
   tau[5] = adn0_z;
 }
 
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
-  const Real Tfree = (state.z[0] * state.z[0] + (state.z[1] * state.z[1] + state.z[2] * state.z[2])) *
-      Real(0.014) + (state.z[5] * (state.z[4] * Real(8501189975362487.0) + (state.z[3] *
-      Real(3391967230216160.0) + state.z[5] * Real(1.3818424463819552e+17))) * Real(1.0587911840678754e-22) +
-      (state.z[3] * (state.z[5] * Real(6783934460432320.0) + (state.z[3] * Real(1.5651537573567146e+17) +
-      state.z[4] * Real(7846740816333997.0))) + state.z[4] * (state.z[3] * Real(7846740816333997.0) +
-      (state.z[4] * Real(1.5730771327363325e+17) + state.z[5] * Real(1.7002379950724974e+16)))) *
-      Real(5.293955920339377e-23));
+  const Real Tfree = (state.z[3] * (state.z[4] * Real(7846740816333997.0) + (state.z[3] *
+      Real(1.5651537573567146e+17) + state.z[5] * Real(6783934460432320.0))) + state.z[4] * (state.z[5] *
+      Real(1.7002379950724974e+16) + (state.z[4] * Real(1.5730771327363325e+17) + state.z[3] *
+      Real(7846740816333997.0)))) * Real(5.293955920339377e-23) + ((state.z[5] * Real(1.3818424463819552e+17)
+      + (state.z[3] * Real(3391967230216160.0) + state.z[4] * Real(8501189975362487.0))) * (state.z[5] *
+      Real(1.0587911840678754e-22)) + (state.z[2] * state.z[2] + (state.z[0] * state.z[0] + state.z[1] *
+      state.z[1])) * Real(0.014));
   return Tfree;
 }
 

@@ -10,7 +10,7 @@
 // Assumptions
 // - bodies are rigid; joints are ideal and without limits
 // - quaternions are near unit length; a step ends with unit length
-// - limbs that are alike are computed at once, as lanes of vectors: 1370 of 2427 operations of
+// - limbs that are alike are computed at once, as lanes of vectors: 1434 of 2409 operations of
 //   forward_dynamics go with others (--no-lanes: one after the other)
 // - time is a sum of three numbers, which 7 additions move
 // Left out
@@ -36,8 +36,8 @@
 //   linearly_implicit_euler_step, ros34pw2_step, rosw43_step, rodas4_step
 // Checked before this file was written
 // - validated at 8 states: in 77 digits everything below agrees to 1e-40 of its scale (what rounding can move
-//   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 8.6e-17 of the
-//   sum of absolute terms, other errors are 6.3e-16 of their scale; cond(M) up to 2.0e+04
+//   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 1.2e-16 of the
+//   sum of absolute terms, other errors are 7.0e-16 of their scale; cond(M) up to 2.0e+04
 // - the symbolic equations (M, k_bar, q_bar, Z z, energies, initial y, initial z): the numeric reference
 // - initial_state: the description's start
 // - position_rate: Z z of the equations
@@ -226,7 +226,7 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
     noexcept;
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
-/// 2427 operations (1278 mul, 1135 add and sub, 14 div), 24 sin and cos.
+/// 2409 operations (1278 mul, 1117 add and sub, 14 div), 24 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[18]) noexcept;
@@ -250,7 +250,7 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 10281 operations. For inputs sampled at the stages include quadruped_kernels.hpp and pass a function of
+/// 10209 operations. For inputs sampled at the stages include quadruped_kernels.hpp and pass a function of
 /// the state instead of `input`.
 template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;

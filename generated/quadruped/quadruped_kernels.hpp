@@ -214,43 +214,49 @@ JOURDAIN_FUNCTION inline void sine_cosine4(const double& x0, double& s0, double&
 #endif
 
 // Numbers that are computed with at once, those of limbs that are alike: vectors where the compiler has them.
+#ifdef __GNUC__
+// One operation each, however many of them a function has.
+#define JOURDAIN_LANE JOURDAIN_FUNCTION __attribute__((always_inline))
+#else
+#define JOURDAIN_LANE JOURDAIN_FUNCTION
+#endif
 template <int N, class Real>
 struct Several;
 template <class Real>
 struct Several<2, Real> {
   Real a, b;
 
-  JOURDAIN_FUNCTION const Real& operator[](int lane) const noexcept { return lane == 0 ? a : b; }
-  JOURDAIN_FUNCTION friend Several operator+(const Several& x, const Several& y) noexcept { return {x.a + y.a, x.b + y.b}; }
-  JOURDAIN_FUNCTION friend Several operator+(const Several& x, const Real& y) noexcept { return {x.a + y, x.b + y}; }
-  JOURDAIN_FUNCTION friend Several operator+(const Real& x, const Several& y) noexcept { return {x + y.a, x + y.b}; }
-  JOURDAIN_FUNCTION friend Several operator-(const Several& x, const Several& y) noexcept { return {x.a - y.a, x.b - y.b}; }
-  JOURDAIN_FUNCTION friend Several operator-(const Several& x, const Real& y) noexcept { return {x.a - y, x.b - y}; }
-  JOURDAIN_FUNCTION friend Several operator-(const Real& x, const Several& y) noexcept { return {x - y.a, x - y.b}; }
-  JOURDAIN_FUNCTION friend Several operator*(const Several& x, const Several& y) noexcept { return {x.a * y.a, x.b * y.b}; }
-  JOURDAIN_FUNCTION friend Several operator*(const Several& x, const Real& y) noexcept { return {x.a * y, x.b * y}; }
-  JOURDAIN_FUNCTION friend Several operator*(const Real& x, const Several& y) noexcept { return {x * y.a, x * y.b}; }
-  JOURDAIN_FUNCTION friend Several operator/(const Several& x, const Several& y) noexcept { return {x.a / y.a, x.b / y.b}; }
-  JOURDAIN_FUNCTION friend Several operator/(const Several& x, const Real& y) noexcept { return {x.a / y, x.b / y}; }
-  JOURDAIN_FUNCTION friend Several operator/(const Real& x, const Several& y) noexcept { return {x / y.a, x / y.b}; }
+  JOURDAIN_LANE const Real& operator[](int lane) const noexcept { return lane == 0 ? a : b; }
+  JOURDAIN_LANE friend Several operator+(const Several& x, const Several& y) noexcept { return {x.a + y.a, x.b + y.b}; }
+  JOURDAIN_LANE friend Several operator+(const Several& x, const Real& y) noexcept { return {x.a + y, x.b + y}; }
+  JOURDAIN_LANE friend Several operator+(const Real& x, const Several& y) noexcept { return {x + y.a, x + y.b}; }
+  JOURDAIN_LANE friend Several operator-(const Several& x, const Several& y) noexcept { return {x.a - y.a, x.b - y.b}; }
+  JOURDAIN_LANE friend Several operator-(const Several& x, const Real& y) noexcept { return {x.a - y, x.b - y}; }
+  JOURDAIN_LANE friend Several operator-(const Real& x, const Several& y) noexcept { return {x - y.a, x - y.b}; }
+  JOURDAIN_LANE friend Several operator*(const Several& x, const Several& y) noexcept { return {x.a * y.a, x.b * y.b}; }
+  JOURDAIN_LANE friend Several operator*(const Several& x, const Real& y) noexcept { return {x.a * y, x.b * y}; }
+  JOURDAIN_LANE friend Several operator*(const Real& x, const Several& y) noexcept { return {x * y.a, x * y.b}; }
+  JOURDAIN_LANE friend Several operator/(const Several& x, const Several& y) noexcept { return {x.a / y.a, x.b / y.b}; }
+  JOURDAIN_LANE friend Several operator/(const Several& x, const Real& y) noexcept { return {x.a / y, x.b / y}; }
+  JOURDAIN_LANE friend Several operator/(const Real& x, const Several& y) noexcept { return {x / y.a, x / y.b}; }
 };
 template <class Real>
 struct Several<4, Real> {
   Real a, b, c, d;
 
-  JOURDAIN_FUNCTION const Real& operator[](int lane) const noexcept { return lane == 0 ? a : lane == 1 ? b : lane == 2 ? c : d; }
-  JOURDAIN_FUNCTION friend Several operator+(const Several& x, const Several& y) noexcept { return {x.a + y.a, x.b + y.b, x.c + y.c, x.d + y.d}; }
-  JOURDAIN_FUNCTION friend Several operator+(const Several& x, const Real& y) noexcept { return {x.a + y, x.b + y, x.c + y, x.d + y}; }
-  JOURDAIN_FUNCTION friend Several operator+(const Real& x, const Several& y) noexcept { return {x + y.a, x + y.b, x + y.c, x + y.d}; }
-  JOURDAIN_FUNCTION friend Several operator-(const Several& x, const Several& y) noexcept { return {x.a - y.a, x.b - y.b, x.c - y.c, x.d - y.d}; }
-  JOURDAIN_FUNCTION friend Several operator-(const Several& x, const Real& y) noexcept { return {x.a - y, x.b - y, x.c - y, x.d - y}; }
-  JOURDAIN_FUNCTION friend Several operator-(const Real& x, const Several& y) noexcept { return {x - y.a, x - y.b, x - y.c, x - y.d}; }
-  JOURDAIN_FUNCTION friend Several operator*(const Several& x, const Several& y) noexcept { return {x.a * y.a, x.b * y.b, x.c * y.c, x.d * y.d}; }
-  JOURDAIN_FUNCTION friend Several operator*(const Several& x, const Real& y) noexcept { return {x.a * y, x.b * y, x.c * y, x.d * y}; }
-  JOURDAIN_FUNCTION friend Several operator*(const Real& x, const Several& y) noexcept { return {x * y.a, x * y.b, x * y.c, x * y.d}; }
-  JOURDAIN_FUNCTION friend Several operator/(const Several& x, const Several& y) noexcept { return {x.a / y.a, x.b / y.b, x.c / y.c, x.d / y.d}; }
-  JOURDAIN_FUNCTION friend Several operator/(const Several& x, const Real& y) noexcept { return {x.a / y, x.b / y, x.c / y, x.d / y}; }
-  JOURDAIN_FUNCTION friend Several operator/(const Real& x, const Several& y) noexcept { return {x / y.a, x / y.b, x / y.c, x / y.d}; }
+  JOURDAIN_LANE const Real& operator[](int lane) const noexcept { return lane == 0 ? a : lane == 1 ? b : lane == 2 ? c : d; }
+  JOURDAIN_LANE friend Several operator+(const Several& x, const Several& y) noexcept { return {x.a + y.a, x.b + y.b, x.c + y.c, x.d + y.d}; }
+  JOURDAIN_LANE friend Several operator+(const Several& x, const Real& y) noexcept { return {x.a + y, x.b + y, x.c + y, x.d + y}; }
+  JOURDAIN_LANE friend Several operator+(const Real& x, const Several& y) noexcept { return {x + y.a, x + y.b, x + y.c, x + y.d}; }
+  JOURDAIN_LANE friend Several operator-(const Several& x, const Several& y) noexcept { return {x.a - y.a, x.b - y.b, x.c - y.c, x.d - y.d}; }
+  JOURDAIN_LANE friend Several operator-(const Several& x, const Real& y) noexcept { return {x.a - y, x.b - y, x.c - y, x.d - y}; }
+  JOURDAIN_LANE friend Several operator-(const Real& x, const Several& y) noexcept { return {x - y.a, x - y.b, x - y.c, x - y.d}; }
+  JOURDAIN_LANE friend Several operator*(const Several& x, const Several& y) noexcept { return {x.a * y.a, x.b * y.b, x.c * y.c, x.d * y.d}; }
+  JOURDAIN_LANE friend Several operator*(const Several& x, const Real& y) noexcept { return {x.a * y, x.b * y, x.c * y, x.d * y}; }
+  JOURDAIN_LANE friend Several operator*(const Real& x, const Several& y) noexcept { return {x * y.a, x * y.b, x * y.c, x * y.d}; }
+  JOURDAIN_LANE friend Several operator/(const Several& x, const Several& y) noexcept { return {x.a / y.a, x.b / y.b, x.c / y.c, x.d / y.d}; }
+  JOURDAIN_LANE friend Several operator/(const Several& x, const Real& y) noexcept { return {x.a / y, x.b / y, x.c / y, x.d / y}; }
+  JOURDAIN_LANE friend Several operator/(const Real& x, const Several& y) noexcept { return {x / y.a, x / y.b, x / y.c, x / y.d}; }
 };
 template <int N, class Real>
 struct LanesOf {
@@ -323,6 +329,7 @@ struct LanesOf<4, float> {
   typedef float Type __attribute__((vector_size(16)));
 };
 #endif
+#undef JOURDAIN_LANE
 template <int N, class Real>
 using Lanes = typename LanesOf<N, Real>::Type;
 
@@ -420,17 +427,17 @@ void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[19
   const Real half_0_0 = state.z[3] * Real(0.5);
   const Real half_0_1 = Real(0.5) * state.z[4];
   const Real half_0_2 = Real(0.5) * state.z[5];
-  const Real qdot_0_0 = half_0_0 * state.y[4] + half_0_1 * state.y[5] + half_0_2 * state.y[6];
-  const Real qdot_0_1 = half_0_0 * state.y[3] + half_0_2 * state.y[5] - half_0_1 * state.y[6];
-  const Real qdot_0_2 = half_0_1 * state.y[3] - half_0_2 * state.y[4] + half_0_0 * state.y[6];
-  const Real qdot_0_3 = half_0_2 * state.y[3] + half_0_1 * state.y[4] - half_0_0 * state.y[5];
+  const Real qdot_0_0 = half_0_2 * state.y[6] + (half_0_0 * state.y[4] + half_0_1 * state.y[5]);
+  const Real qdot_0_1 = half_0_1 * state.y[6] - (half_0_0 * state.y[3] + half_0_2 * state.y[5]);
+  const Real qdot_0_2 = half_0_0 * state.y[6] + (half_0_1 * state.y[3] - half_0_2 * state.y[4]);
+  const Real qdot_0_3 = half_0_0 * state.y[5] - (half_0_2 * state.y[3] + half_0_1 * state.y[4]);
   ydot[0] = state.z[0];
   ydot[1] = state.z[1];
   ydot[2] = state.z[2];
   ydot[3] = -qdot_0_0;
-  ydot[4] = qdot_0_1;
+  ydot[4] = -qdot_0_1;
   ydot[5] = qdot_0_2;
-  ydot[6] = qdot_0_3;
+  ydot[6] = -qdot_0_3;
   ydot[7] = state.z[6];
   ydot[8] = state.z[7];
   ydot[9] = state.z[8];
@@ -466,7 +473,7 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1
   const Real q001 = q0d1 * state.y[3];
   const Real q002 = q0d2 * state.y[3];
   const Real q003 = q0d3 * state.y[3];
-  const Real q0r0_x = q022 + q033 - Real(1.0);
+  const Real q0r0_x = q033 + (q022 - Real(1.0));
   const Real q0r0_y = q012 - q003;
   const Real q0r0_z = q013 + q002;
   const Real q0r1_x = q012 + q003;
@@ -513,15 +520,15 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1
   const detail::Lanes<4, Real> h2_y = h3b_y + h2b_y;
   const detail::Lanes<4, Real> J2 = E3 + (detail::Lanes<4, Real>{Real(0.008967), Real(0.008967),
       Real(0.009408), Real(0.009408)} + D3);
-  const detail::Lanes<4, Real> S2_xx = Real(2.0) * (r3_x * h3b_x) + (s3 * S3b_t - (detail::Lanes<4,
+  const detail::Lanes<4, Real> S2_xx = h3b_x * (Real(2.0) * r3_x) + (s3 * S3b_t - (detail::Lanes<4,
       Real>{Real(0.010542), Real(0.010542), Real(0.011448), Real(0.011448)} - s2s * S2b_t));
   const detail::Lanes<4, Real> S2_xz = S3b_xz - S2b_xz;
   const detail::Lanes<4, Real> S2_yz = S3b_yz + S2b_yz;
   const detail::Lanes<4, Real> S2c_xz = detail::Lanes<4, Real>{Real(0.0147372), Real(0.0147372),
       Real(-0.014855), Real(-0.014855)} - S2_yz;
   const detail::Lanes<4, Real> S2c_yy = Real(0.00025) - S2_xx;
-  const detail::Lanes<4, Real> S2c_yz = detail::Lanes<4, Real>{Real(0.19), Real(0.19), Real(-0.19),
-      Real(-0.19)} * h2_x + (S2b_xy - (Real(0.21) * (s2s * h3b_x) + (S3b_xy - r3_x * h3b_y)));
+  const detail::Lanes<4, Real> S2c_yz = r3_x * h3b_y - h3b_x * (s2s * Real(0.21)) + (detail::Lanes<4,
+      Real>{Real(0.19), Real(0.19), Real(-0.19), Real(-0.19)} * h2_x - (S3b_xy - S2b_xy));
   const detail::Lanes<4, Real> S1b_zz = detail::Lanes<4, Real>{Real(0.00539936), Real(0.00539936),
       Real(0.0054378000000000004), Real(0.0054378000000000004)} + S2c_yy;
   const detail::Lanes<4, Real> S1b_d = detail::Lanes<4, Real>{Real(0.00539936), Real(0.00539936),
@@ -532,40 +539,38 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1
   const Real t286 = -s10;
   const detail::Lanes<4, Real> s1s_2 = {s1, t285, s7, t286};
   const detail::Lanes<4, Real> S1b_t = Real(2.0) * t277 + s1s_2 * S1b_d;
-  const detail::Lanes<4, Real> s1s = {s1, s4, s7, s10};
-  const detail::Lanes<4, Real> S1b_xx = detail::Lanes<4, Real>{Real(0.00539936), Real(-0.00539936),
-      Real(0.0054378000000000004), Real(-0.0054378000000000004)} - s1s * S1b_t;
-  const detail::Lanes<4, Real> t305 = c1s * S1b_t;
-  const Real t309 = -c4;
-  const Real t310 = -c7;
-  const Real t311 = -c10;
-  const Real t316 = -s7;
-  const detail::Lanes<4, Real> S1b_xz = detail::Lanes<4, Real>{c1, t309, t310, t311} * S2c_xz -
-      detail::Lanes<4, Real>{s1, s4, t316, s10} * S2c_yz;
-  const detail::Lanes<4, Real> S1b_yz = detail::Lanes<4, Real>{c1, c4, t310, t311} * S2c_yz + detail::Lanes<4,
-      Real>{s1, t285, t316, s10} * S2c_xz;
+  const detail::Lanes<4, Real> S1b_xx = detail::Lanes<4, Real>{Real(0.00539936), Real(0.00539936),
+      Real(0.0054378000000000004), Real(0.0054378000000000004)} - s1s_2 * S1b_t;
+  const Real t307 = -c4;
+  const Real t309 = -c10;
+  const detail::Lanes<4, Real> S1b_xz = detail::Lanes<4, Real>{c1, t307, -c7, t309} * S2c_xz -
+      detail::Lanes<4, Real>{s1, s4, -s7, s10} * S2c_yz;
+  const detail::Lanes<4, Real> S1b_yz = c1s * S2c_yz + s1s_2 * S2c_xz;
   const detail::Lanes<4, Real> h1b_x = c1s * detail::Lanes<4, Real>{Real(0.07788), Real(0.07788),
       Real(0.0785), Real(0.0785)} - s1s_2 * h2_x;
+  const detail::Lanes<4, Real> s1s = {s1, s4, s7, s10};
   const detail::Lanes<4, Real> h1b_y = s1s * detail::Lanes<4, Real>{Real(0.07788), Real(0.07788),
-      Real(0.0785), Real(0.0785)} + detail::Lanes<4, Real>{c1, t309, c7, t311} * h2_x;
-  const Real t363 = h2_y[1] + h2_y[0];
-  const Real t364 = h2_y[3] + h2_y[2];
-  const Real h1c_x = t363 + t364 + Real(0.0038000000000000035);
-  const Real h1c_y = h1b_x[0] - (h1b_x[1] + (h1b_x[3] - h1b_x[2]));
-  const Real h1c_z = h1b_y[0] - (h1b_y[1] + (h1b_y[3] - h1b_y[2]));
-  const Real S1c_xx = (t363 - t364) * Real(0.38) - (S2_xx[0] + (J2[0] + (S2_xx[1] + (J2[1] + (S2_xx[2] +
-      (J2[2] + (J2[3] + S2_xx[3]))))))) - Real(0.22637000000000002);
-  const Real S1c_xy = (h2_y[0] - (h2_y[1] + (h2_y[3] - h2_y[2]))) * Real(0.05) - (S1b_xz[3] - (S1b_xz[2] -
-      (S1b_xz[1] + S1b_xz[0])));
-  const Real S1c_xz = S1b_yz[0] + (S1b_yz[1] - (S1b_yz[3] + S1b_yz[2]));
-  const Real S1c_yy = (h1b_x[0] + (h1b_x[1] + (h1b_x[3] + h1b_x[2]))) * Real(0.1) + (S1b_xx[2] + (S1b_xx[0] -
-      S1b_xx[1]) - S1b_xx[3]) + Real(0.02215);
-  const Real S1c_yz = Real(0.05) * (h1b_y[0] + (h1b_y[1] + (h1b_y[3] + h1b_y[2]))) - (t305[3] - (S2_xz[3] +
-      (t305[2] - (S2_xz[2] + (t305[1] - (S2_xz[1] - (S2_xz[0] - t305[0])))))));
-  const Real S1c_zz = S1b_xx[0] - (S1b_zz[0] + (S1b_xx[1] + (S1b_zz[1] - (S1b_xx[2] - (S1b_zz[2] + (S1b_zz[3]
-      + S1b_xx[3])))))) - Real(0.0024000000000000002);
-  const Real S0b_zz = S1c_xx - S1c_yy;
-  const Real Jx0 = S1c_yy - S1c_zz;
+      Real(0.0785), Real(0.0785)} + detail::Lanes<4, Real>{c1, t307, c7, t309} * h2_x;
+  const Real t361 = h2_y[1] + h2_y[0];
+  const Real t362 = h2_y[3] + h2_y[2];
+  const Real h1c_x = t362 + (t361 + Real(0.0038000000000000035));
+  const Real h1c_y = h1b_x[3] - h1b_x[2] + (h1b_x[1] - h1b_x[0]);
+  const Real h1c_z = h1b_y[3] - h1b_y[2] + (h1b_y[1] - h1b_y[0]);
+  const detail::Lanes<4, Real> t375 = J2 + S2_xx;
+  const Real S1c_xx = t375[2] + t375[3] - ((t361 - t362) * Real(0.38) - Real(0.22637000000000002) - (t375[0] +
+      t375[1]));
+  const Real S1c_xy = S1b_xz[2] - S1b_xz[1] - (S1b_xz[0] + (S1b_xz[3] + (h2_y[3] - h2_y[2] + (h2_y[1] -
+      h2_y[0])) * Real(0.05)));
+  const Real S1c_xz = S1b_yz[3] + S1b_yz[2] + (S1b_yz[1] + S1b_yz[0]);
+  const Real S1c_yy = S1b_xx[2] + S1b_xx[1] + (S1b_xx[0] + (S1b_xx[3] + ((h1b_x[3] + h1b_x[2] + (h1b_x[1] +
+      h1b_x[0])) * Real(0.1) + Real(0.02215))));
+  const detail::Lanes<4, Real> t412 = S2_xz - c1s * S1b_t;
+  const Real S1c_yz = t412[1] - t412[2] + (t412[3] + (Real(0.05) * (h1b_y[3] + h1b_y[2] + (h1b_y[1] +
+      h1b_y[0])) - t412[0]));
+  const detail::Lanes<4, Real> t420 = S1b_zz - S1b_xx;
+  const Real S1c_zz = t420[1] + t420[2] + (t420[3] + (Real(0.0024000000000000002) + t420[0]));
+  const Real S0b_zz = S1c_xx + S1c_yy;
+  const Real Jx0 = S1c_yy + S1c_zz;
   const Real Jy0 = S1c_xx + S1c_zz;
   const detail::Lanes<4, Real> p_6_1l_x = h1b_x * Real(0.05);
   const detail::Lanes<4, Real> p_6_1n_x = S1b_zz + p_6_1l_x;
@@ -581,7 +586,7 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1
   const detail::Lanes<4, Real> p_7_1l_x = Real(0.05) * p_7_2F_y;
   const detail::Lanes<4, Real> p_7_1l_z = h2_x * Real(0.05);
   const detail::Lanes<4, Real> p_7_1n_x = S2_yz + p_7_1l_x;
-  const detail::Lanes<4, Real> p_7_1n_z = p_7_1l_z + (t277 - s1s_2 * p_7_2n_x);
+  const detail::Lanes<4, Real> p_7_1n_z = s1s_2 * p_7_2n_x - (t277 + p_7_1l_z);
   const detail::Lanes<4, Real> p_7_0f_x = q0r0_z * p_7_2F_y - (q0r0_x * h2_x + q0r0_y * p_7_2F_x);
   const detail::Lanes<4, Real> p_7_0f_y = q0r1_z * p_7_2F_y + (q0r1_x * h2_x + q0r1_y * p_7_2F_x);
   const detail::Lanes<4, Real> p_7_0f_z = q0r2_z * p_7_2F_y - (q0r2_x * h2_x - q0r2_y * p_7_2F_x);
@@ -594,25 +599,25 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1
   const detail::Lanes<4, Real> p_8_1l_x = Real(0.05) * p_8_2F_y;
   const detail::Lanes<4, Real> p_8_1l_z = h3b_x * Real(0.05);
   const detail::Lanes<4, Real> p_8_1n_x = S3b_yz + p_8_1l_x;
-  const detail::Lanes<4, Real> p_8_1n_z = p_8_1l_z + (c1s * S3b_xz - s1s_2 * p_8_2n_x);
+  const detail::Lanes<4, Real> p_8_1n_z = s1s_2 * p_8_2n_x - (c1s * S3b_xz + p_8_1l_z);
   const detail::Lanes<4, Real> p_8_0f_x = q0r0_z * p_8_2F_y - (q0r0_x * h3b_x + q0r0_y * p_8_2F_x);
   const detail::Lanes<4, Real> p_8_0f_y = q0r1_z * p_8_2F_y + (q0r1_x * h3b_x + q0r1_y * p_8_2F_x);
   const detail::Lanes<4, Real> p_8_0f_z = q0r2_z * p_8_2F_y - (q0r2_x * h3b_x - q0r2_y * p_8_2F_x);
   const Real pfree_0_0f_x = q0r0_y * h1c_z - q0r0_z * h1c_y;
   const Real pfree_0_0f_y = q0r1_y * h1c_z + q0r1_z * h1c_y;
   const Real pfree_0_0f_z = q0r2_y * h1c_z + q0r2_z * h1c_y;
-  const Real pfree_0_1f_x = q0r0_x * h1c_z - q0r0_z * h1c_x;
-  const Real pfree_0_1f_y = q0r1_x * h1c_z + q0r1_z * h1c_x;
-  const Real pfree_0_1f_z = q0r2_x * h1c_z - q0r2_z * h1c_x;
-  const Real pfree_0_2f_x = q0r0_x * h1c_y - q0r0_y * h1c_x;
-  const Real pfree_0_2f_y = q0r1_x * h1c_y - q0r1_y * h1c_x;
-  const Real pfree_0_2f_z = q0r2_x * h1c_y + q0r2_y * h1c_x;
+  const Real pfree_0_1f_x = q0r0_x * h1c_z + q0r0_z * h1c_x;
+  const Real pfree_0_1f_y = q0r1_x * h1c_z - q0r1_z * h1c_x;
+  const Real pfree_0_1f_z = q0r2_x * h1c_z + q0r2_z * h1c_x;
+  const Real pfree_0_2f_x = q0r0_x * h1c_y + q0r0_y * h1c_x;
+  const Real pfree_0_2f_y = q0r1_x * h1c_y + q0r1_y * h1c_x;
+  const Real pfree_0_2f_z = q0r2_x * h1c_y - q0r2_y * h1c_x;
   M[0][0] = model.front_abduction1_m;
   M[0][1] = M[1][0] = Real(0.0);
   M[0][2] = M[2][0] = Real(0.0);
-  M[0][3] = M[3][0] = -pfree_0_0f_x;
-  M[0][4] = M[4][0] = -pfree_0_1f_x;
-  M[0][5] = M[5][0] = pfree_0_2f_x;
+  M[0][3] = M[3][0] = pfree_0_0f_x;
+  M[0][4] = M[4][0] = pfree_0_1f_x;
+  M[0][5] = M[5][0] = -pfree_0_2f_x;
   M[0][6] = M[6][0] = -p_6_0f_x[0];
   M[0][7] = M[7][0] = p_7_0f_x[0];
   M[0][8] = M[8][0] = p_8_0f_x[0];
@@ -627,9 +632,9 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1
   M[0][17] = M[17][0] = p_8_0f_x[3];
   M[1][1] = model.front_abduction1_m;
   M[1][2] = M[2][1] = Real(0.0);
-  M[1][3] = M[3][1] = pfree_0_0f_y;
-  M[1][4] = M[4][1] = pfree_0_1f_y;
-  M[1][5] = M[5][1] = -pfree_0_2f_y;
+  M[1][3] = M[3][1] = -pfree_0_0f_y;
+  M[1][4] = M[4][1] = -pfree_0_1f_y;
+  M[1][5] = M[5][1] = pfree_0_2f_y;
   M[1][6] = M[6][1] = p_6_0f_y[0];
   M[1][7] = M[7][1] = p_7_0f_y[0];
   M[1][8] = M[8][1] = p_8_0f_y[0];
@@ -643,9 +648,9 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1
   M[1][16] = M[16][1] = p_7_0f_y[3];
   M[1][17] = M[17][1] = p_8_0f_y[3];
   M[2][2] = model.front_abduction1_m;
-  M[2][3] = M[3][2] = -pfree_0_0f_z;
-  M[2][4] = M[4][2] = pfree_0_1f_z;
-  M[2][5] = M[5][2] = -pfree_0_2f_z;
+  M[2][3] = M[3][2] = pfree_0_0f_z;
+  M[2][4] = M[4][2] = -pfree_0_1f_z;
+  M[2][5] = M[5][2] = pfree_0_2f_z;
   M[2][6] = M[6][2] = -p_6_0f_z[0];
   M[2][7] = M[7][2] = -p_7_0f_z[0];
   M[2][8] = M[8][2] = -p_8_0f_z[0];
@@ -673,7 +678,7 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1
   M[3][15] = M[15][3] = p_6_1n_x[3];
   M[3][16] = M[16][3] = -p_7_1n_x[3];
   M[3][17] = M[17][3] = -p_8_1n_x[3];
-  M[4][4] = -Jy0;
+  M[4][4] = Jy0;
   M[4][5] = M[5][4] = -S1c_yz;
   M[4][6] = M[6][4] = -S1b_xz[0];
   M[4][7] = M[7][4] = p_7_2N_x[0];
@@ -687,19 +692,19 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1
   M[4][15] = M[15][4] = -S1b_xz[3];
   M[4][16] = M[16][4] = p_7_2N_x[3];
   M[4][17] = M[17][4] = p_8_2N_x[3];
-  M[5][5] = -S0b_zz;
+  M[5][5] = S0b_zz;
   M[5][6] = M[6][5] = -S1b_yz[0];
-  M[5][7] = M[7][5] = -p_7_1n_z[0];
-  M[5][8] = M[8][5] = -p_8_1n_z[0];
+  M[5][7] = M[7][5] = p_7_1n_z[0];
+  M[5][8] = M[8][5] = p_8_1n_z[0];
   M[5][9] = M[9][5] = -S1b_yz[1];
-  M[5][10] = M[10][5] = p_7_1n_z[1];
-  M[5][11] = M[11][5] = p_8_1n_z[1];
-  M[5][12] = M[12][5] = S1b_yz[2];
-  M[5][13] = M[13][5] = -p_7_1n_z[2];
-  M[5][14] = M[14][5] = -p_8_1n_z[2];
-  M[5][15] = M[15][5] = S1b_yz[3];
-  M[5][16] = M[16][5] = p_7_1n_z[3];
-  M[5][17] = M[17][5] = p_8_1n_z[3];
+  M[5][10] = M[10][5] = -p_7_1n_z[1];
+  M[5][11] = M[11][5] = -p_8_1n_z[1];
+  M[5][12] = M[12][5] = -S1b_yz[2];
+  M[5][13] = M[13][5] = p_7_1n_z[2];
+  M[5][14] = M[14][5] = p_8_1n_z[2];
+  M[5][15] = M[15][5] = -S1b_yz[3];
+  M[5][16] = M[16][5] = -p_7_1n_z[3];
+  M[5][17] = M[17][5] = -p_8_1n_z[3];
   M[6][6] = S1b_zz[0];
   M[6][7] = M[7][6] = S2_yz[0];
   M[6][8] = M[8][6] = S3b_yz[0];
@@ -801,7 +806,7 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[18]) noexcept
   const Real q001 = q0d1 * state.y[3];
   const Real q002 = q0d2 * state.y[3];
   const Real q003 = q0d3 * state.y[3];
-  const Real q0r0_x = q022 + q033 - Real(1.0);
+  const Real q0r0_x = q033 + (q022 - Real(1.0));
   const Real q0r0_y = q012 - q003;
   const Real q0r0_z = q013 + q002;
   const Real q0r1_x = q012 + q003;
@@ -850,82 +855,83 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[18]) noexcept
   const detail::Lanes<4, Real> J2 = detail::Lanes<4, Real>{Real(0.010801999999999999),
       Real(0.010801999999999999), Real(0.011708), Real(0.011708)} + t37s * detail::Lanes<4,
       Real>{Real(0.00567), Real(0.00567), Real(0.00672), Real(0.00672)};
-  const detail::Lanes<4, Real> S2_xx = s2s * S2b_t - (detail::Lanes<4, Real>{Real(0.008712), Real(0.008712),
-      Real(0.009153), Real(0.009153)} + (S3b_xx - Real(2.0) * (r3_x * h3b_x)));
-  const detail::Lanes<4, Real> S2_xy = S2b_xy - (r3_y * h3b_x + (S3b_xy - r3_x * h3b_y));
+  const detail::Lanes<4, Real> S2_xx = S3b_xx - (h3b_x * (Real(2.0) * r3_x) - (detail::Lanes<4,
+      Real>{Real(0.008712), Real(0.008712), Real(0.009153), Real(0.009153)} - s2s * S2b_t));
+  const detail::Lanes<4, Real> S2_xy = S3b_xy - S2b_xy - (r3_x * h3b_y - r3_y * h3b_x);
   const detail::Lanes<4, Real> S2_xz = S3b_xz - S2b_xz;
   const detail::Lanes<4, Real> S2_yz = S3b_yz + S2b_yz;
-  const detail::Lanes<4, Real> S2_yy = J2 + S2_xx;
+  const detail::Lanes<4, Real> S2_yy = J2 - S2_xx;
   const detail::Lanes<4, Real> S2c_xz = detail::Lanes<4, Real>{Real(0.0147372), Real(0.0147372),
       Real(-0.014855), Real(-0.014855)} - S2_yz;
-  const detail::Lanes<4, Real> S2c_yy = Real(0.00025) - S2_xx;
-  const detail::Lanes<4, Real> S2c_yz = S2_xy + detail::Lanes<4, Real>{Real(0.19), Real(0.19), Real(-0.19),
+  const detail::Lanes<4, Real> S2c_yy = Real(0.00025) + S2_xx;
+  const detail::Lanes<4, Real> S2c_yz = S2_xy - detail::Lanes<4, Real>{Real(0.19), Real(0.19), Real(-0.19),
       Real(-0.19)} * h2_x;
   const detail::Lanes<4, Real> S1b_d = detail::Lanes<4, Real>{Real(0.00539936), Real(0.00539936),
       Real(0.0054378000000000004), Real(0.0054378000000000004)} - S2c_yy;
   const Real t287 = -s4;
   const Real t288 = -s10;
   const detail::Lanes<4, Real> c1s = {c1, c4, c7, c10};
-  const detail::Lanes<4, Real> s1s_2 = {s1, t287, s7, t288};
-  const detail::Lanes<4, Real> S1b_t = Real(2.0) * (c1s * S2_xz) + s1s_2 * S1b_d;
-  const detail::Lanes<4, Real> t297 = s1s_2 * S1b_t;
+  const detail::Lanes<4, Real> s1s_3 = {s1, t287, s7, t288};
+  const detail::Lanes<4, Real> S1b_t = S2_xz * (Real(2.0) * c1s) + s1s_3 * S1b_d;
+  const detail::Lanes<4, Real> t297 = s1s_3 * S1b_t;
   const detail::Lanes<4, Real> S1b_xx = detail::Lanes<4, Real>{Real(0.00539936), Real(0.00539936),
       Real(0.0054378000000000004), Real(0.0054378000000000004)} - t297;
   const detail::Lanes<4, Real> S1b_xy = S2_xz - c1s * S1b_t;
   const Real t313 = -c4;
+  const Real t314 = -c7;
   const Real t315 = -c10;
-  const detail::Lanes<4, Real> S1b_xz = detail::Lanes<4, Real>{c1, t313, -c7, t315} * S2c_xz -
-      detail::Lanes<4, Real>{s1, s4, -s7, s10} * S2c_yz;
-  const detail::Lanes<4, Real> S1b_yz = c1s * S2c_yz + s1s_2 * S2c_xz;
+  const Real t320 = -s7;
+  const detail::Lanes<4, Real> s1s_2 = {s1, s4, t320, s10};
+  const detail::Lanes<4, Real> S1b_xz = detail::Lanes<4, Real>{c1, t313, t314, t315} * S2c_xz + s1s_2 *
+      S2c_yz;
+  const detail::Lanes<4, Real> S1b_yz = c1s * S2c_yz - s1s_3 * S2c_xz;
   const detail::Lanes<4, Real> S1b_yy = S2c_yy + t297;
   const detail::Lanes<4, Real> h1b_x = c1s * detail::Lanes<4, Real>{Real(0.07788), Real(0.07788),
-      Real(0.0785), Real(0.0785)} - s1s_2 * h2_x;
+      Real(0.0785), Real(0.0785)} - s1s_3 * h2_x;
   const detail::Lanes<4, Real> s1s = {s1, s4, s7, s10};
-  const detail::Lanes<4, Real> c1s_3 = {c1, t313, c7, t315};
+  const detail::Lanes<4, Real> c1s_2 = {c1, t313, c7, t315};
   const detail::Lanes<4, Real> h1b_y = s1s * detail::Lanes<4, Real>{Real(0.07788), Real(0.07788),
-      Real(0.0785), Real(0.0785)} + c1s_3 * h2_x;
+      Real(0.0785), Real(0.0785)} + c1s_2 * h2_x;
   const Real t371 = h2_y[1] + h2_y[0];
   const Real t372 = h2_y[3] + h2_y[2];
-  const Real h1c_x = t371 + t372 + Real(0.0038000000000000035);
-  const Real h1c_y = h1b_x[0] - (h1b_x[1] + (h1b_x[3] - h1b_x[2]));
-  const Real h1c_z = h1b_y[0] - (h1b_y[1] + (h1b_y[3] - h1b_y[2]));
-  const Real S1c_xx = (t371 - t372) * Real(0.38) - (S2_yy[0] + (S2_yy[1] + (S2_yy[3] + S2_yy[2]))) -
-      Real(0.22637000000000002);
-  const Real S1c_xy = (h2_y[0] - (h2_y[1] + (h2_y[3] - h2_y[2]))) * Real(0.05) - (S1b_xz[3] - (S1b_xz[2] -
-      (S1b_xz[1] + S1b_xz[0])));
-  const Real S1c_xz = S1b_yz[0] + (S1b_yz[1] + (S1b_yz[3] + S1b_yz[2]));
-  const Real S1c_yy = (h1b_x[0] + (h1b_x[1] + (h1b_x[3] + h1b_x[2]))) * Real(0.1) + (S1b_xx[3] + (S1b_xx[2] +
-      (S1b_xx[1] + S1b_xx[0]))) + Real(0.02215);
-  const Real S1c_yz = Real(0.05) * (h1b_y[0] + (h1b_y[1] + (h1b_y[3] + h1b_y[2]))) + (S1b_xy[3] - (S1b_xy[2] -
-      (S1b_xy[1] - S1b_xy[0])));
-  const Real S1c_zz = S1b_yy[0] + (S1b_yy[1] + (S1b_yy[3] + S1b_yy[2])) + Real(0.0024000000000000002);
+  const Real h1c_x = t372 + (t371 + Real(0.0038000000000000035));
+  const Real h1c_y = h1b_x[3] - h1b_x[2] + (h1b_x[1] - h1b_x[0]);
+  const Real h1c_z = h1b_y[3] - h1b_y[2] + (h1b_y[1] - h1b_y[0]);
+  const Real S1c_xx = S2_yy[0] - (t371 - t372) * Real(0.38) + (S2_yy[3] + Real(0.22637000000000002) +
+      (S2_yy[2] + S2_yy[1]));
+  const Real S1c_xy = S1b_xz[2] - S1b_xz[1] - (S1b_xz[0] + (S1b_xz[3] + (h2_y[3] - h2_y[2] + (h2_y[1] -
+      h2_y[0])) * Real(0.05)));
+  const Real S1c_xz = S1b_yz[3] + S1b_yz[2] + (S1b_yz[1] + S1b_yz[0]);
+  const Real S1c_yy = S1b_xx[2] + S1b_xx[1] + (S1b_xx[0] + (S1b_xx[3] + ((h1b_x[3] + h1b_x[2] + (h1b_x[1] +
+      h1b_x[0])) * Real(0.1) + Real(0.02215))));
+  const Real S1c_yz = S1b_xy[2] - S1b_xy[1] + (S1b_xy[0] - (S1b_xy[3] + Real(0.05) * (h1b_y[3] + h1b_y[2] +
+      (h1b_y[1] + h1b_y[0]))));
+  const Real S1c_zz = S1b_yy[2] + S1b_yy[1] + (S1b_yy[0] + (S1b_yy[3] + Real(0.0024000000000000002)));
   const detail::Lanes<4, Real> g9 = {state.z[6], state.z[9], state.z[12], state.z[15]};
   const detail::Lanes<4, Real> w1_z = state.z[3] + g9;
-  const detail::Lanes<4, Real> w2pp_x = c1s_3 * state.z[4] + s1s_2 * state.z[5];
+  const detail::Lanes<4, Real> w2pp_x = c1s_2 * state.z[4] + s1s_3 * state.z[5];
   const detail::Lanes<4, Real> w2pp_y = s1s * state.z[4] - c1s * state.z[5];
   const Real t464 = -state.z[10];
   const Real t467 = -state.z[16];
   const detail::Lanes<4, Real> g12 = {state.z[7], t464, state.z[13], t467};
   const detail::Lanes<4, Real> w2_z = w2pp_x + g12;
-  const Real kSu0_x = S1c_xz * state.z[5] - (S1c_xx * state.z[3] + S1c_xy * state.z[4]);
-  const Real kSu0_y = S1c_yz * state.z[5] - (S1c_xy * state.z[3] - S1c_yy * state.z[4]);
-  const Real kSu0_z = S1c_zz * state.z[5] + (S1c_xz * state.z[3] + S1c_yz * state.z[4]);
-  const Real kuh0 = h1c_z * state.z[5] - (h1c_x * state.z[3] - h1c_y * state.z[4]);
+  const Real kSu0_x = S1c_xy * state.z[4] - (S1c_xx * state.z[3] - S1c_xz * state.z[5]);
+  const Real kSu0_y = S1c_yz * state.z[5] + (S1c_xy * state.z[3] - S1c_yy * state.z[4]);
+  const Real kSu0_z = S1c_zz * state.z[5] - (S1c_xz * state.z[3] + S1c_yz * state.z[4]);
+  const Real kuh0 = h1c_z * state.z[5] + (h1c_x * state.z[3] + h1c_y * state.z[4]);
   const Real kL0w00 = state.z[3] * state.z[3];
   const Real kL0w22 = state.z[5] * state.z[5];
   const Real kL0U1_y = kL0w00 + kL0w22;
   const Real kuw0 = state.z[4] * state.z[4] + kL0U1_y;
-  const Real kL0w01 = state.z[3] * state.z[4];
-  const Real kL0w12 = state.z[4] * state.z[5];
-  const Real ka1o_x = Real(0.05) * kL0w01;
+  const Real ka1o_x = state.z[4] * (Real(0.05) * state.z[3]);
   const Real ka1o_y = Real(0.05) * kL0U1_y;
-  const Real ka1o_z = Real(0.05) * kL0w12;
+  const Real ka1o_z = state.z[5] * (Real(0.05) * state.z[4]);
   const Real t518 = -state.z[4];
   const Real t523 = -state.z[5];
   const detail::Lanes<4, Real> kKx1 = S1b_xy * detail::Lanes<4, Real>{state.z[5], t523, t523, t523} - (S1b_xz
       * state.z[3] + S1b_xx * detail::Lanes<4, Real>{state.z[4], state.z[4], t518, state.z[4]});
   const detail::Lanes<4, Real> g10 = {state.z[4], t518, state.z[4], t518};
-  const detail::Lanes<4, Real> kKy1 = S1b_yy * state.z[5] + (S1b_yz * state.z[3] - S1b_xy * g10);
+  const detail::Lanes<4, Real> kKy1 = S1b_yy * state.z[5] - (S1b_yz * state.z[3] + S1b_xy * g10);
   const detail::Lanes<4, Real> z2_1 = Real(2.0) * g9;
   const detail::Lanes<4, Real> zz_1 = g9 * g9;
   const detail::Lanes<4, Real> zw_1 = g9 * (state.z[3] + w1_z);
@@ -934,20 +940,18 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[18]) noexcept
   const detail::Lanes<4, Real> kdf1_x = h1b_x * zw_1;
   const detail::Lanes<4, Real> kdf1_y = h1b_y * zw_1;
   const detail::Lanes<4, Real> kdf1_z = z2_1 * kax1;
-  const detail::Lanes<4, Real> t614 = S1b_yz * zz_1;
-  const detail::Lanes<4, Real> t618 = kKy1 * z2_1;
-  const detail::Lanes<4, Real> t622 = S1b_xz * zz_1;
-  const detail::Lanes<4, Real> t626 = kKx1 * z2_1;
   const detail::Lanes<4, Real> kal2p_x = g9 * w2pp_y;
   const detail::Lanes<4, Real> kal2p_y = g9 * w2pp_x;
   const Real kL1w00 = w2pp_x[0] * w2pp_x[0];
   const detail::Lanes<4, Real> kL1w11 = w2pp_y * w2pp_y;
   const detail::Lanes<4, Real> kL1w12 = w1_z * w2pp_y;
   const detail::Lanes<4, Real> kL1U1_z = kal2p_x - kL1w12;
+  const Real kL1U2_z = kL1w00 + kL1w11[0];
   const detail::Lanes<4, Real> ka2o_y = detail::Lanes<4, Real>{Real(0.19), Real(0.19), Real(-0.19),
-      Real(-0.19)} * kL1U1_z + (c1s_3 * ka1o_z + s1s_2 * ka1o_y);
-  const detail::Lanes<4, Real> kKx2 = S2_xz * w2pp_x + (S2_xx * w2pp_y + S2_xy * w1_z);
-  const detail::Lanes<4, Real> kKy2 = S2_yy * w1_z - (S2_xy * w2pp_y + S2_yz * w2pp_x);
+      Real(-0.19)} * kL1U1_z + (c1s_2 * ka1o_z + s1s_3 * ka1o_y);
+  const Real t672 = Real(0.19) * kL1U2_z;
+  const detail::Lanes<4, Real> kKx2 = S2_xy * w1_z + (S2_xx * w2pp_y - S2_xz * w2pp_x);
+  const detail::Lanes<4, Real> kKy2 = S2_yy * w1_z + (S2_xy * w2pp_y - S2_yz * w2pp_x);
   const detail::Lanes<4, Real> g11 = {state.z[7], state.z[10], state.z[13], state.z[16]};
   const detail::Lanes<4, Real> z2_2 = detail::Lanes<4, Real>{Real(2.0), Real(2.0), Real(2.0), Real(-2.0)} *
       g11;
@@ -958,100 +962,94 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[18]) noexcept
   const detail::Lanes<4, Real> kdf2_x = h2_x * zw_2;
   const detail::Lanes<4, Real> kdf2_y = h2_y * zw_2;
   const detail::Lanes<4, Real> kdf2_z = z2_2 * kax2;
-  const detail::Lanes<4, Real> t772 = S2_yz * zz_2;
-  const detail::Lanes<4, Real> t776 = kKy2 * z2_2;
+  const detail::Lanes<4, Real> t774 = S2_yz * zz_2;
+  const detail::Lanes<4, Real> t778 = kKy2 * z2_2;
   const detail::Lanes<4, Real> kal2o_x = kal2p_y - w1_z * g12;
   const detail::Lanes<4, Real> kW2w11 = w1_z * w1_z;
   const detail::Lanes<4, Real> kW2w22 = w2_z * w2_z;
-  const detail::Lanes<4, Real> kL1U2_z = detail::Lanes<4, Real>{kL1w00, kW2w22[1], kW2w22[2], kW2w22[3]} +
-      kL1w11;
-  const Real t808 = Real(0.19) * kL1U2_z[0];
   const detail::Lanes<4, Real> kW2U0_x = kW2w11 + kW2w22;
   const detail::Lanes<4, Real> kW2U1_x = kal2p_x + kL1w12;
   const Real kW2U1_y = kL1w11[0] + kW2w22[0];
-  const detail::Lanes<4, Real> ka3o_x = r3_y * kL1U1_z - (ka2o_y + r3_x * kW2U0_x);
-  const detail::Lanes<4, Real> t834 = r3_x * kW2U1_x;
-  const detail::Lanes<4, Real> kKx3 = S3b_xz * w2_z - (S3b_xx * w2pp_y + S3b_xy * w1_z);
+  const detail::Lanes<4, Real> ka3o_x = r3_x * kW2U0_x + (ka2o_y - r3_y * kL1U1_z);
+  const detail::Lanes<4, Real> t831 = r3_x * kW2U1_x;
+  const detail::Lanes<4, Real> kKx3 = S3b_xx * w2pp_y + (S3b_xy * w1_z - S3b_xz * w2_z);
   const detail::Lanes<4, Real> kKy3 = S3b_yy * w1_z + (S3b_xy * w2pp_y - S3b_yz * w2_z);
   const detail::Lanes<4, Real> g13 = {state.z[8], state.z[11], state.z[14], state.z[17]};
   const detail::Lanes<4, Real> z2_3 = detail::Lanes<4, Real>{Real(2.0), Real(2.0), Real(2.0), Real(-2.0)} *
       g13;
-  const Real t914 = -state.z[11];
-  const detail::Lanes<4, Real> zz_3 = detail::Lanes<4, Real>{state.z[8], t914, state.z[14], state.z[17]} *
+  const Real t912 = -state.z[11];
+  const detail::Lanes<4, Real> zz_3 = detail::Lanes<4, Real>{state.z[8], t912, state.z[14], state.z[17]} *
       g13;
-  const Real t919 = -state.z[17];
-  const detail::Lanes<4, Real> g14 = {state.z[8], t914, state.z[14], t919};
-  const detail::Lanes<4, Real> zw_3 = g14 * (g14 + (w2_z + w2_z));
+  const Real t917 = -state.z[17];
+  const detail::Lanes<4, Real> g14 = {state.z[8], t912, state.z[14], t917};
+  const detail::Lanes<4, Real> zw_3 = g14 * (w2_z + (w2_z + g14));
   const detail::Lanes<4, Real> kax3 = h3b_x * w2pp_y + h3b_y * w1_z;
   const detail::Lanes<4, Real> kdf3_x = h3b_x * zw_3;
   const detail::Lanes<4, Real> kdf3_y = h3b_y * zw_3;
   const detail::Lanes<4, Real> kdf3_z = z2_3 * kax3;
-  const detail::Lanes<4, Real> t956 = r3_y * detail::Lanes<4, Real>{kW2U1_y, kdf3_z[1], kdf3_z[2], kdf3_z[3]};
-  const detail::Lanes<4, Real> t960 = S3b_yz * zz_3;
-  const detail::Lanes<4, Real> t964 = kKy3 * z2_3;
-  const detail::Lanes<2, Real> ka5o_z = detail::Lanes<2, Real>{ka1o_x, -ka1o_x} + t808;
-  const Real ka3o_y = t956[0] + (t834[0] - ka5o_z[1]);
-  const Real ka6o_y = r3_y[1] * kL1U2_z[1] - (ka5o_z[0] - t834[1]);
+  const detail::Lanes<4, Real> t954 = S3b_yz * zz_3;
+  const detail::Lanes<4, Real> t958 = kKy3 * z2_3;
+  const detail::Lanes<2, Real> ka5o_z = detail::Lanes<2, Real>{ka1o_x, -ka1o_x} + t672;
+  const Real ka3o_y = r3_y[0] * kW2U1_y + (t831[0] - ka5o_z[1]);
+  const Real kW5U1_y = kL1w11[1] + kW2w22[1];
+  const Real ka6o_y = r3_y[1] * kW5U1_y - (ka5o_z[0] - t831[1]);
+  const Real kW8U1_y = kL1w11[2] + kW2w22[2];
+  const Real kW11U1_y = kL1w11[3] + kW2w22[3];
   const detail::Lanes<2, Real> ka9o_y = detail::Lanes<2, Real>{r3_y[2], r3_y[3]} * detail::Lanes<2,
-      Real>{kL1U2_z[2], kL1U2_z[3]} + (ka5o_z + detail::Lanes<2, Real>{t834[2], t834[3]});
-  const detail::Lanes<4, Real> kQp3 = w2pp_y * kKy3 + (w1_z * kKx3 - (h3b_y * ka3o_x - (h3b_x *
-      detail::Lanes<4, Real>{ka3o_y, ka6o_y, ka9o_y[0], ka9o_y[1]} + (S3b_yz * (w2pp_y * g12) -
-      (detail::Lanes<4, Real>{Real(0.0018349999999999998), Real(0.0018349999999999998),
-      Real(0.0023000000000000004), Real(0.0023000000000000004)} * kal2p_x - S3b_xz * kal2o_x)))));
+      Real>{kW8U1_y, kW11U1_y} + (ka5o_z + detail::Lanes<2, Real>{t831[2], t831[3]});
+  const detail::Lanes<4, Real> kQp3 = h3b_x * detail::Lanes<4, Real>{ka3o_y, ka6o_y, ka9o_y[0], ka9o_y[1]} +
+      h3b_y * ka3o_x + (w2pp_y * kKy3 - (w1_z * kKx3 - (S3b_xz * kal2o_x - (detail::Lanes<4,
+      Real>{Real(0.0018349999999999998), Real(0.0018349999999999998), Real(0.0023000000000000004),
+      Real(0.0023000000000000004)} * kal2p_x - S3b_yz * (w2pp_y * g12)))));
   const detail::Lanes<4, Real> kf3c_x = kdf2_x + kdf3_x;
   const detail::Lanes<4, Real> kf3c_z = kdf2_z + kdf3_z;
-  const detail::Lanes<4, Real> kn3c_y = r3_x * kdf3_z + (kKx2 * z2_2 + (S2_xz * zz_2 + (S3b_xz * zz_3 + kKx3 *
-      z2_3)));
+  const detail::Lanes<4, Real> kn3c_y = kKx2 * z2_2 + (kKx3 * z2_3 - (r3_x * kdf3_z + (S2_xz * zz_2 + S3b_xz *
+      zz_3)));
   const detail::Lanes<4, Real> kn3c_z = r3_x * kdf3_y + r3_y * kdf3_x;
   const detail::Lanes<4, Real> kn2c_x = kn3c_z - detail::Lanes<4, Real>{Real(0.19), Real(0.19), Real(-0.19),
       Real(-0.19)} * kf3c_x;
-  const detail::Lanes<4, Real> t1077 = Real(0.19) * kf3c_z;
-  const detail::Lanes<2, Real> kn8c_y = detail::Lanes<2, Real>{t1077[2], t1077[3]} + (detail::Lanes<2,
-      Real>{t956[2], t956[3]} + (detail::Lanes<2, Real>{t776[2], t776[3]} - (detail::Lanes<2, Real>{t772[2],
-      t772[3]} + (detail::Lanes<2, Real>{t960[2], t960[3]} - detail::Lanes<2, Real>{t964[2], t964[3]}))));
-  const Real kn5c_y = t1077[1] - (t956[1] + (t776[1] + (t964[1] - t960[1] - t772[1])));
-  const Real kn2c_y = t1077[0] - (r3_y[0] * kdf3_z[0] + (t776[0] - (t772[0] + (t960[0] - t964[0]))));
-  const detail::Lanes<4, Real> c1s_2 = {c1, c4, c7, t315};
-  const detail::Lanes<4, Real> t1097 = c1s_2 * kf3c_z;
-  const detail::Lanes<4, Real> t1101 = s1s * kf3c_x;
-  const detail::Lanes<4, Real> kf1_y = detail::Lanes<4, Real>{s1, t287, s7, s10} * kf3c_z + (kdf1_y + c1s_3 *
+  const detail::Lanes<4, Real> t1076 = Real(0.19) * kf3c_z;
+  const detail::Lanes<2, Real> kn8c_y = detail::Lanes<2, Real>{t958[2], t958[3]} + (detail::Lanes<2,
+      Real>{r3_y[2] * kdf3_z[2], r3_y[3] * kdf3_z[3]} - (detail::Lanes<2, Real>{t774[2], t774[3]} +
+      detail::Lanes<2, Real>{t954[2], t954[3]})) + (detail::Lanes<2, Real>{t778[2], t778[3]} +
+      detail::Lanes<2, Real>{t1076[2], t1076[3]});
+  const Real kn5c_y = t958[1] + (r3_y[1] * kdf3_z[1] - (t774[1] + t954[1])) + (t778[1] - t1076[1]);
+  const Real kn2c_y = t958[0] + (r3_y[0] * kdf3_z[0] - (t774[0] + t954[0])) + (t778[0] - t1076[0]);
+  const detail::Lanes<4, Real> kf1_y = detail::Lanes<4, Real>{s1, t287, s7, s10} * kf3c_z + (kdf1_y + c1s_2 *
       kf3c_x);
-  const detail::Lanes<4, Real> kf1_z = kdf3_y + (kdf1_z + kdf2_y);
-  const detail::Lanes<4, Real> t1129 = c1s * kn2c_x;
+  const detail::Lanes<4, Real> kf1_z = kdf1_z + (kdf2_y + kdf3_y);
+  const Real kf0_x = kf1_z[0] + (h1c_x * kuw0 + kf1_z[3]) - (state.z[3] * kuh0 - (kf1_z[2] + kf1_z[1]));
+  const detail::Lanes<4, Real> t1154 = s1s_3 * kf3c_x - (kdf1_x + detail::Lanes<4, Real>{c1, t313, c7, c10} *
+      kf3c_z);
+  const Real kf0_y = state.z[4] * kuh0 + t1154[3] - (h1c_y * kuw0 + t1154[0] + (t1154[2] - t1154[1]));
+  const Real kf0_z = state.z[5] * kuh0 + kf1_y[0] - (h1c_z * kuw0 + kf1_y[3] - (kf1_y[2] - kf1_y[1]));
+  const Real kn0_x = state.z[5] * kSu0_y + (state.z[4] * kSu0_z - (kn3c_y[2] - kn3c_y[3] + (kn3c_y[1] +
+      kn3c_y[0]) - Real(0.05) * (kf1_y[3] + kf1_y[2] + (kf1_y[1] + kf1_y[0]))));
   const detail::Lanes<4, Real> kn2c_ys = {kn2c_y, kn5c_y, kn8c_y[0], kn8c_y[1]};
-  const detail::Lanes<4, Real> t1133 = detail::Lanes<4, Real>{s1, s4, s7, t288} * kn2c_ys;
-  const detail::Lanes<4, Real> t1137 = c1s_2 * kn2c_ys;
-  const detail::Lanes<4, Real> t1141 = s1s * kn2c_x;
-  const Real kf0_x = kf1_z[0] + (kf1_z[1] + (kf1_z[2] + (kf1_z[3] + (state.z[3] * kuh0 + h1c_x * kuw0))));
-  const Real kf0_y = t1101[0] - (t1097[0] + (kdf1_x[0] - (t1101[1] - (t1097[1] - (kdf1_x[1] + (t1101[2] -
-      (t1097[2] + (kdf1_x[2] - (t1101[3] - (t1097[3] - (kdf1_x[3] + (state.z[4] * kuh0 - h1c_y *
-      kuw0))))))))))));
-  const Real kf0_z = kf1_y[0] + (kf1_y[2] - (kf1_y[3] + (state.z[5] * kuh0 - h1c_z * kuw0)) - kf1_y[1]);
-  const Real kn0_x = Real(0.05) * (kf1_y[0] + (kf1_y[1] + (kf1_y[3] + kf1_y[2]))) + (kn3c_y[2] + (kn3c_y[1] +
-      (kn3c_y[0] + (state.z[4] * kSu0_z - state.z[5] * kSu0_y))) - kn3c_y[3]);
-  const Real kn0_y = t1133[0] - (t1129[0] - (t618[0] + (t614[0] + (t1133[1] - (t1129[1] - (t618[1] + (t614[1]
-      - (t1133[2] + (t1129[2] - (t618[2] + (t614[2] - (t1133[3] + (t1129[3] - (t618[3] + (t614[3] +
-      (state.z[3] * kSu0_z - state.z[5] * kSu0_x))))))))))))))));
-  const Real kn0_z = Real(0.05) * (kf1_z[0] - (kf1_z[1] + (kf1_z[3] - kf1_z[2]))) + (t1141[3] - (t1137[3] -
-      (t622[3] + (t1141[2] - (t1137[2] + (t622[2] - (t1141[1] + (t1137[1] + (t622[1] + (t1141[0] + (t1137[0] -
-      (t626[0] - (t622[0] + (state.z[3] * kSu0_y - state.z[4] * kSu0_x))))) - t626[1]))) - t626[2]))) -
-      t626[3])));
-  const detail::Lanes<4, Real> kQ1_0 = kn3c_y - (h1b_y * detail::Lanes<4, Real>{ka1o_y, ka1o_y, ka1o_y,
-      -ka1o_y} + (h1b_x * detail::Lanes<4, Real>{ka1o_z, ka1o_z, ka1o_z, -ka1o_z} - (detail::Lanes<4,
-      Real>{state.z[4], state.z[4], state.z[4], t518} * kKy1 + detail::Lanes<4, Real>{state.z[5], state.z[5],
-      t523, t523} * kKx1)));
-  const detail::Lanes<4, Real> kQ2_0 = kn3c_z - (w2pp_y * kKy2 + (w1_z * kKx2 + (S2_xz * kal2p_y - (J2 *
-      kal2p_x - (detail::Lanes<4, Real>{-h2_x[0], -h2_x[1], h2_x[2], h2_x[3]} * detail::Lanes<4,
-      Real>{ka5o_z[1], ka5o_z[0], ka5o_z[0], ka5o_z[1]} + h2_y * ka2o_y)))));
-  const Real kext0f_x = q0r0_z * kf0_z + (q0r0_x * kf0_x - q0r0_y * kf0_y);
-  const Real kext0f_y = q0r1_z * kf0_z - (q0r1_x * kf0_x - q0r1_y * kf0_y);
-  const Real kext0f_z = q0r2_z * kf0_z + (q0r2_x * kf0_x + q0r2_y * kf0_y);
+  const detail::Lanes<4, Real> t1186 = kKy1 * z2_1 - (detail::Lanes<4, Real>{s1, s4, s7, t288} * kn2c_ys +
+      (S1b_yz * zz_1 + c1s * kn2c_x));
+  const Real kn0_y = t1186[3] + (state.z[5] * kSu0_x + t1186[0]) + (state.z[3] * kSu0_z + (t1186[1] +
+      t1186[2]));
+  const detail::Lanes<4, Real> t1207 = kKx1 * z2_1 + (detail::Lanes<4, Real>{c1, c4, t314, t315} * kn2c_ys -
+      (S1b_xz * zz_1 + s1s_2 * kn2c_x));
+  const Real kn0_z = t1207[3] + (t1207[0] - (state.z[4] * kSu0_x + Real(0.05) * (kf1_z[2] - kf1_z[3] +
+      (kf1_z[0] - kf1_z[1])))) + (state.z[3] * kSu0_y - (t1207[2] - t1207[1]));
+  const detail::Lanes<4, Real> kQ1_0 = detail::Lanes<4, Real>{state.z[5], state.z[5], t523, t523} * kKx1 +
+      (detail::Lanes<4, Real>{state.z[4], state.z[4], state.z[4], t518} * kKy1 - (kn3c_y + (h1b_x *
+      detail::Lanes<4, Real>{ka1o_z, ka1o_z, ka1o_z, -ka1o_z} + h1b_y * detail::Lanes<4, Real>{ka1o_y, ka1o_y,
+      ka1o_y, -ka1o_y})));
+  const detail::Lanes<4, Real> kQ2_0 = kn3c_z - (h2_y * ka2o_y + (detail::Lanes<4, Real>{-h2_x[0], -h2_x[1],
+      h2_x[2], h2_x[3]} * detail::Lanes<4, Real>{ka5o_z[1], ka5o_z[0], ka5o_z[0], ka5o_z[1]} - (J2 * kal2p_x -
+      S2_xz * kal2p_y))) + (w1_z * kKx2 - w2pp_y * kKy2);
+  const Real kext0f_x = q0r0_z * kf0_z + (q0r0_x * kf0_x + q0r0_y * kf0_y);
+  const Real kext0f_y = q0r1_z * kf0_z - (q0r1_x * kf0_x + q0r1_y * kf0_y);
+  const Real kext0f_z = q0r2_z * kf0_z + (q0r2_x * kf0_x - q0r2_y * kf0_y);
   k[0] = kext0f_x;
   k[1] = kext0f_y;
   k[2] = -kext0f_z;
   k[3] = kn0_x;
   k[4] = -kn0_y;
-  k[5] = kn0_z;
+  k[5] = -kn0_z;
   k[6] = kQ1_0[0];
   k[7] = kQ2_0[0];
   k[8] = -kQp3[0];
@@ -1128,49 +1126,49 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real h2_y = h3b_y + h2b_y;
   const Real h1b_x = c1 * Real(0.07788) - s1 * h2_x;
   const Real h1b_y = s1 * Real(0.07788) + c1 * h2_x;
-  const Real h1c_x = h11_y + (h8_y + (h5_y + h2_y)) + Real(0.0038000000000000035);
-  const Real h1c_y = h7b_x - (h10b_x + (h4b_x - h1b_x));
-  const Real h1c_z = h7b_y - (h10b_y + (h4b_y - h1b_y));
+  const Real h1c_x = h8_y + h5_y + (h2_y + (h11_y + Real(0.0038000000000000035)));
+  const Real h1c_y = h10b_x - h7b_x + (h4b_x - h1b_x);
+  const Real h1c_z = h10b_y - h7b_y + (h4b_y - h1b_y);
   const Real g0_x = q0r2_x * Real(9.81);
   const Real g0_y = q0r2_y * Real(9.81);
   const Real g0_z = q0r2_z * Real(9.81);
   const Real q_3 = h1c_y * g0_z + h1c_z * g0_y;
-  const Real q_4 = h1c_x * g0_z - h1c_z * g0_x;
-  const Real q_5 = h1c_x * g0_y + h1c_y * g0_x;
-  const Real q_6 = h1b_x * g0_z + (input.u[0] + h1b_y * g0_y);
+  const Real q_4 = h1c_x * g0_z + h1c_z * g0_x;
+  const Real q_5 = h1c_x * g0_y - h1c_y * g0_x;
+  const Real q_6 = h1b_y * g0_y + (input.u[0] + h1b_x * g0_z);
   const Real g2p_y = c1 * g0_z + s1 * g0_y;
-  const Real q_7 = h2_x * g0_x - (input.u[1] + h2_y * g2p_y);
-  const Real q_8 = h3b_x * g0_x - (input.u[2] + h3b_y * g2p_y);
-  const Real q_9 = h4b_x * g0_z - (input.u[3] - h4b_y * g0_y);
+  const Real q_7 = h2_y * g2p_y + (input.u[1] - h2_x * g0_x);
+  const Real q_8 = h3b_y * g2p_y + (input.u[2] - h3b_x * g0_x);
+  const Real q_9 = h4b_y * g0_y - (input.u[3] - h4b_x * g0_z);
   const Real g5p_y = c4 * g0_z + s4 * g0_y;
-  const Real q_10 = h5_x * g0_x - (input.u[4] + h5_y * g5p_y);
-  const Real q_11 = h6b_x * g0_x - (input.u[5] + h6b_y * g5p_y);
-  const Real q_12 = h7b_x * g0_z + (input.u[6] + h7b_y * g0_y);
+  const Real q_10 = h5_y * g5p_y + (input.u[4] - h5_x * g0_x);
+  const Real q_11 = h6b_y * g5p_y + (input.u[5] - h6b_x * g0_x);
+  const Real q_12 = h7b_y * g0_y + (input.u[6] + h7b_x * g0_z);
   const Real g8p_y = c7 * g0_z + s7 * g0_y;
-  const Real q_13 = h8_x * g0_x - (input.u[7] + h8_y * g8p_y);
-  const Real q_14 = h9b_x * g0_x - (input.u[8] + h9b_y * g8p_y);
-  const Real q_15 = h10b_x * g0_z - (input.u[9] - h10b_y * g0_y);
+  const Real q_13 = h8_y * g8p_y + (input.u[7] - h8_x * g0_x);
+  const Real q_14 = h9b_y * g8p_y + (input.u[8] - h9b_x * g0_x);
+  const Real q_15 = h10b_y * g0_y - (input.u[9] - h10b_x * g0_z);
   const Real g11p_y = c10 * g0_z + s10 * g0_y;
-  const Real q_16 = h11_x * g0_x - (input.u[10] + h11_y * g11p_y);
-  const Real q_17 = h12b_x * g0_x - (input.u[11] + h12b_y * g11p_y);
+  const Real q_16 = h11_y * g11p_y + (input.u[10] - h11_x * g0_x);
+  const Real q_17 = h12b_y * g11p_y + (input.u[11] - h12b_x * g0_x);
   q[0] = Real(0.0);
   q[1] = Real(0.0);
   q[2] = model.q_2;
-  q[3] = -q_3;
+  q[3] = q_3;
   q[4] = -q_4;
   q[5] = -q_5;
   q[6] = -q_6;
-  q[7] = q_7;
-  q[8] = q_8;
+  q[7] = -q_7;
+  q[8] = -q_8;
   q[9] = q_9;
-  q[10] = q_10;
-  q[11] = q_11;
+  q[10] = -q_10;
+  q[11] = -q_11;
   q[12] = -q_12;
-  q[13] = q_13;
-  q[14] = q_14;
+  q[13] = -q_13;
+  q[14] = -q_14;
   q[15] = q_15;
-  q[16] = q_16;
-  q[17] = q_17;
+  q[16] = -q_16;
+  q[17] = -q_17;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -1245,188 +1243,190 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
       Real(0.0462)};
   const detail::Lanes<4, Real> h2_x = h3b_x - h2b_x;
   const detail::Lanes<4, Real> h2_y = h3b_y + h2b_y;
-  const detail::Lanes<4, Real> J2 = D3 + (detail::Lanes<4, Real>{Real(0.008967), Real(0.008967),
-      Real(0.009408), Real(0.009408)} + E3);
-  const detail::Lanes<4, Real> S2_xx = Real(2.0) * (r3_x * h3b_x) - (S3b_xx + (detail::Lanes<4,
+  const detail::Lanes<4, Real> J2 = E3 + (detail::Lanes<4, Real>{Real(0.008967), Real(0.008967),
+      Real(0.009408), Real(0.009408)} + D3);
+  const detail::Lanes<4, Real> S2_xx = S3b_xx - (h3b_x * (Real(2.0) * r3_x) - (detail::Lanes<4,
       Real>{Real(0.008712), Real(0.008712), Real(0.009153), Real(0.009153)} - s2s * S2b_t));
-  const detail::Lanes<4, Real> S2_xy = r3_x * h3b_y - (S3b_xy + (r3_y * h3b_x - S2b_xy));
+  const detail::Lanes<4, Real> S2_xy = S3b_xy - S2b_xy - (r3_x * h3b_y - r3_y * h3b_x);
   const detail::Lanes<4, Real> S2_xz = S3b_xz - S2b_xz;
   const detail::Lanes<4, Real> S2_yz = S3b_yz + S2b_yz;
-  const detail::Lanes<4, Real> S2_yy = J2 + S2_xx;
+  const detail::Lanes<4, Real> S2_yy = J2 - S2_xx;
   const detail::Lanes<4, Real> S2c_xz = detail::Lanes<4, Real>{Real(0.0147372), Real(0.0147372),
       Real(-0.014855), Real(-0.014855)} - S2_yz;
-  const detail::Lanes<4, Real> S2c_yy = Real(0.00025) - S2_xx;
-  const detail::Lanes<4, Real> S2c_yz = S2_xy + detail::Lanes<4, Real>{Real(0.19), Real(0.19), Real(-0.19),
+  const detail::Lanes<4, Real> S2c_yy = Real(0.00025) + S2_xx;
+  const detail::Lanes<4, Real> S2c_yz = S2_xy - detail::Lanes<4, Real>{Real(0.19), Real(0.19), Real(-0.19),
       Real(-0.19)} * h2_x;
-  const detail::Lanes<4, Real> S2c_zz = S2_yy - detail::Lanes<4, Real>{Real(0.38), Real(0.38), Real(-0.38),
-      Real(-0.38)} * h2_y;
+  const detail::Lanes<4, Real> t282 = Real(0.38) * h2_y;
+  const Real S11c_zz = S2_yy[3] + t282[3];
   const detail::Lanes<4, Real> S1b_zz = detail::Lanes<4, Real>{Real(0.00539936), Real(0.00539936),
       Real(0.0054378000000000004), Real(0.0054378000000000004)} + S2c_yy;
   const detail::Lanes<4, Real> S1b_d = detail::Lanes<4, Real>{Real(0.00539936), Real(0.00539936),
       Real(0.0054378000000000004), Real(0.0054378000000000004)} - S2c_yy;
   const detail::Lanes<4, Real> c1s = {c1, c4, c7, c10};
-  const detail::Lanes<4, Real> t301 = c1s * S2_xz;
-  const Real t309 = -s4;
-  const Real t310 = -s10;
-  const detail::Lanes<4, Real> s1s_3 = {s1, t309, s7, t310};
-  const detail::Lanes<4, Real> S1b_t = Real(2.0) * t301 + s1s_3 * S1b_d;
+  const detail::Lanes<4, Real> t297 = c1s * S2_xz;
+  const Real t305 = -s4;
+  const Real t306 = -s10;
+  const detail::Lanes<4, Real> s1s_3 = {s1, t305, s7, t306};
+  const detail::Lanes<4, Real> S1b_t = Real(2.0) * t297 + s1s_3 * S1b_d;
   const detail::Lanes<4, Real> S1b_xx = detail::Lanes<4, Real>{Real(0.00539936), Real(0.00539936),
       Real(0.0054378000000000004), Real(0.0054378000000000004)} - s1s_3 * S1b_t;
   const detail::Lanes<4, Real> S1b_xy = S2_xz - c1s * S1b_t;
-  const Real t335 = -c7;
-  const Real t336 = -c10;
-  const Real t341 = -s7;
-  const detail::Lanes<4, Real> c1s_4 = {c1, c4, t335, t336};
-  const detail::Lanes<4, Real> s1s_4 = {s1, t309, t341, s10};
-  const detail::Lanes<4, Real> S1b_xz = c1s_4 * S2c_xz - s1s_4 * S2c_yz;
-  const detail::Lanes<4, Real> S1b_yz = c1s * S2c_yz + s1s_3 * S2c_xz;
+  const Real t331 = -c4;
+  const Real t332 = -c7;
+  const Real t333 = -c10;
+  const Real t338 = -s7;
+  const detail::Lanes<4, Real> c1s_3 = {c1, t331, t332, t333};
+  const detail::Lanes<4, Real> s1s_2 = {s1, s4, t338, s10};
+  const detail::Lanes<4, Real> S1b_xz = c1s_3 * S2c_xz + s1s_2 * S2c_yz;
+  const detail::Lanes<4, Real> S1b_yz = c1s * S2c_yz - s1s_3 * S2c_xz;
   const detail::Lanes<4, Real> S1b_yy = S1b_zz - S1b_xx;
   const detail::Lanes<4, Real> h1b_x = c1s * detail::Lanes<4, Real>{Real(0.07788), Real(0.07788),
-      Real(-0.0785), Real(0.0785)} - detail::Lanes<4, Real>{s1, t309, t341, t310} * h2_x;
+      Real(0.0785), Real(0.0785)} - s1s_3 * h2_x;
   const detail::Lanes<4, Real> s1s = {s1, s4, s7, s10};
-  const detail::Lanes<4, Real> c1s_2 = {c1, c4, c7, t336};
-  const detail::Lanes<4, Real> h1b_y = s1s * detail::Lanes<4, Real>{Real(0.07788), Real(-0.07788),
+  const detail::Lanes<4, Real> c1s_2 = {c1, t331, c7, t333};
+  const detail::Lanes<4, Real> h1b_y = s1s * detail::Lanes<4, Real>{Real(0.07788), Real(0.07788),
       Real(0.0785), Real(0.0785)} + c1s_2 * h2_x;
-  const Real t395 = h2_y[3] + Real(0.0038000000000000035);
-  const Real S1c_xx = S2c_zz[3] + (S2c_zz[2] + (S2c_zz[1] + S2c_zz[0])) + Real(0.22637000000000002);
-  const Real S1c_xz = S1b_yz[2] + (S1b_yz[3] + (S1b_yz[1] + S1b_yz[0]));
-  const Real S1c_zz = S1b_yy[3] + (S1b_yy[2] + (S1b_yy[1] + S1b_yy[0])) + Real(0.0024000000000000002);
-  const detail::Lanes<4, Real> g13 = {state.z[6], state.z[9], state.z[12], state.z[15]};
-  const detail::Lanes<4, Real> w1_z = state.z[3] + g13;
-  const Real t419 = -c4;
-  const detail::Lanes<4, Real> c1s_5 = {c1, t419, c7, t336};
-  const detail::Lanes<4, Real> w2pp_x = c1s_5 * state.z[4] + s1s_3 * state.z[5];
+  const Real h1c_x = h2_y[2] + h2_y[1] + (h2_y[0] + (h2_y[3] + Real(0.0038000000000000035)));
+  const Real h1c_y = h1b_x[3] - h1b_x[2] + (h1b_x[1] - h1b_x[0]);
+  const Real h1c_z = h1b_y[3] - h1b_y[2] + (h1b_y[1] - h1b_y[0]);
+  const Real t404 = S2_yy[2] + S2_yy[1] + (S2_yy[0] - (t282[0] - (t282[2] - t282[1])));
+  const Real S1c_xx = t404 + (S11c_zz + Real(0.22637000000000002));
+  const Real S1c_xy = S1b_xz[2] - S1b_xz[1] - (S1b_xz[0] + (S1b_xz[3] + (h2_y[3] - h2_y[2] + (h2_y[1] -
+      h2_y[0])) * Real(0.05)));
+  const Real S1c_xz = S1b_yz[3] + S1b_yz[2] + (S1b_yz[1] + S1b_yz[0]);
+  const Real S1c_yy = S1b_xx[2] + S1b_xx[1] + (S1b_xx[0] + (S1b_xx[3] + ((h1b_x[3] + h1b_x[2] + (h1b_x[1] +
+      h1b_x[0])) * Real(0.1) + Real(0.02215))));
+  const Real t435 = S1b_xy[2] - S1b_xy[1];
+  const Real S1c_yz = S1b_xy[3] + Real(0.05) * (h1b_y[3] + h1b_y[2] + (h1b_y[1] + h1b_y[0])) - (S1b_xy[0] +
+      t435);
+  const Real t442 = S1b_yy[0] + (S1b_yy[2] + S1b_yy[1]);
+  const Real S1c_zz = S1b_yy[3] + Real(0.0024000000000000002) + t442;
+  const detail::Lanes<4, Real> g10 = {state.z[6], state.z[9], state.z[12], state.z[15]};
+  const detail::Lanes<4, Real> w1_z = state.z[3] + g10;
+  const detail::Lanes<4, Real> w2pp_x = c1s_2 * state.z[4] + s1s_3 * state.z[5];
   const detail::Lanes<4, Real> w2pp_y = s1s * state.z[4] - c1s * state.z[5];
-  const Real t447 = -state.z[10];
-  const Real t450 = -state.z[16];
-  const detail::Lanes<4, Real> g17 = {state.z[7], t447, state.z[13], t450};
-  const detail::Lanes<4, Real> w2_z = w2pp_x + g17;
+  const Real t481 = -state.z[10];
+  const Real t484 = -state.z[16];
+  const detail::Lanes<4, Real> g15 = {state.z[7], t481, state.z[13], t484};
+  const detail::Lanes<4, Real> w2_z = w2pp_x + g15;
+  const Real bSu0_x = S1c_xy * state.z[4] - (S1c_xx * state.z[3] - S1c_xz * state.z[5]);
+  const Real bSu0_y = S1c_yz * state.z[5] - (S1c_xy * state.z[3] - S1c_yy * state.z[4]);
+  const Real bSu0_z = S1c_xz * state.z[3] - S1c_yz * state.z[4] - S1c_zz * state.z[5];
+  const Real buh0 = h1c_z * state.z[5] + (h1c_x * state.z[3] + h1c_y * state.z[4]);
   const Real bL0w00 = state.z[3] * state.z[3];
   const Real bL0w22 = state.z[5] * state.z[5];
   const Real bL0U1_y = bL0w00 + bL0w22;
   const Real buw0 = state.z[4] * state.z[4] + bL0U1_y;
-  const Real bL0w01 = state.z[3] * state.z[4];
-  const Real bL0w12 = state.z[4] * state.z[5];
-  const Real ba1o_x = Real(0.05) * bL0w01;
+  const Real ba1o_x = state.z[4] * (Real(0.05) * state.z[3]);
   const Real ba1o_y = Real(0.05) * bL0U1_y;
-  const Real ba1o_z = Real(0.05) * bL0w12;
-  const Real t477 = -state.z[4];
-  const Real t482 = -state.z[5];
-  const detail::Lanes<4, Real> g15 = {state.z[5], t482, t482, t482};
-  const detail::Lanes<4, Real> bKx1 = S1b_xx * detail::Lanes<4, Real>{state.z[4], state.z[4], t477,
-      state.z[4]} + (S1b_xz * detail::Lanes<4, Real>{state.z[3], -state.z[3], state.z[3], state.z[3]} - S1b_xy
-      * g15);
-  const detail::Lanes<4, Real> g14 = {state.z[4], t477, state.z[4], t477};
-  const detail::Lanes<4, Real> bKy1 = S1b_xy * g14 - (S1b_yz * state.z[3] + S1b_yy * state.z[5]);
-  const Real t523 = -ba1o_z;
-  const detail::Lanes<4, Real> z2_1 = Real(2.0) * g13;
-  const detail::Lanes<4, Real> zz_1 = g13 * g13;
-  const detail::Lanes<4, Real> zw_1 = g13 * (state.z[3] + w1_z);
-  const detail::Lanes<4, Real> bax1 = h1b_x * detail::Lanes<4, Real>{state.z[4], t477, t477, t477} + h1b_y *
-      detail::Lanes<4, Real>{state.z[5], state.z[5], state.z[5], t482};
+  const Real ba1o_z = state.z[5] * (Real(0.05) * state.z[4]);
+  const Real t535 = -state.z[4];
+  const Real t540 = -state.z[5];
+  const detail::Lanes<4, Real> g13 = {state.z[5], t540, t540, t540};
+  const detail::Lanes<4, Real> g11 = {state.z[4], state.z[4], t535, state.z[4]};
+  const detail::Lanes<4, Real> bKx1 = S1b_xy * g13 - (S1b_xz * state.z[3] + S1b_xx * g11);
+  const detail::Lanes<4, Real> g12 = {state.z[4], t535, state.z[4], t535};
+  const detail::Lanes<4, Real> bKy1 = S1b_yy * state.z[5] - (S1b_yz * state.z[3] + S1b_xy * g12);
+  const Real t581 = -ba1o_z;
+  const Real t586 = -ba1o_y;
+  const detail::Lanes<4, Real> z2_1 = detail::Lanes<4, Real>{Real(2.0), Real(-2.0), Real(-2.0), Real(-2.0)} *
+      g10;
+  const Real t596 = -state.z[9];
+  const Real t598 = -state.z[15];
+  const detail::Lanes<4, Real> zz_1 = detail::Lanes<4, Real>{state.z[6], t596, -state.z[12], t598} * g10;
+  const detail::Lanes<4, Real> zw_1 = detail::Lanes<4, Real>{state.z[6], t596, state.z[12], t598} *
+      (state.z[3] + w1_z);
+  const detail::Lanes<4, Real> bax1 = h1b_x * g11 + h1b_y * detail::Lanes<4, Real>{state.z[5], state.z[5],
+      t540, state.z[5]};
   const detail::Lanes<4, Real> bdf1_x = h1b_x * zw_1;
   const detail::Lanes<4, Real> bdf1_y = h1b_y * zw_1;
   const detail::Lanes<4, Real> bdf1_z = z2_1 * bax1;
-  const detail::Lanes<4, Real> t573 = S1b_yz * zz_1;
-  const detail::Lanes<4, Real> t577 = bKy1 * z2_1;
-  const detail::Lanes<4, Real> t581 = S1b_xz * zz_1;
-  const detail::Lanes<4, Real> t585 = bKx1 * z2_1;
-  const detail::Lanes<4, Real> bal2p_x = g13 * w2pp_y;
-  const detail::Lanes<4, Real> bal2p_y = g13 * w2pp_x;
+  const detail::Lanes<4, Real> bal2p_x = g10 * w2pp_y;
+  const detail::Lanes<4, Real> bal2p_y = g10 * w2pp_x;
   const Real bL1w00 = w2pp_x[0] * w2pp_x[0];
   const detail::Lanes<4, Real> bL1w11 = w2pp_y * w2pp_y;
   const detail::Lanes<4, Real> bL1w12 = w1_z * w2pp_y;
   const detail::Lanes<4, Real> bL1U1_z = bal2p_x - bL1w12;
-  const detail::Lanes<4, Real> ba2o_y = s1s_3 * ba1o_y + (c1s_5 * ba1o_z + detail::Lanes<4, Real>{Real(0.19),
-      Real(0.19), Real(-0.19), Real(-0.19)} * bL1U1_z);
-  const detail::Lanes<4, Real> bKx2 = S2_xy * w1_z + (S2_xx * w2pp_y + S2_xz * w2pp_x);
-  const detail::Lanes<4, Real> bKy2 = S2_yz * w2pp_x + (S2_xy * w2pp_y - S2_yy * w1_z);
-  const detail::Lanes<4, Real> g16 = {state.z[7], state.z[10], state.z[13], state.z[16]};
+  const Real bL1U2_z = bL1w00 + bL1w11[0];
+  const detail::Lanes<4, Real> ba2o_y = detail::Lanes<4, Real>{Real(0.19), Real(0.19), Real(-0.19),
+      Real(-0.19)} * bL1U1_z + (c1s_2 * ba1o_z + s1s_3 * ba1o_y);
+  const Real t693 = Real(0.19) * bL1U2_z;
+  const detail::Lanes<4, Real> bKx2 = S2_xy * w1_z + (S2_xx * w2pp_y - S2_xz * w2pp_x);
+  const detail::Lanes<4, Real> bKy2 = S2_yy * w1_z + (S2_xy * w2pp_y - S2_yz * w2pp_x);
+  const detail::Lanes<4, Real> g14 = {state.z[7], state.z[10], state.z[13], state.z[16]};
   const detail::Lanes<4, Real> z2_2 = detail::Lanes<4, Real>{Real(2.0), Real(-2.0), Real(2.0), Real(-2.0)} *
-      g16;
-  const detail::Lanes<4, Real> zz_2 = g16 * g16;
-  const detail::Lanes<4, Real> zw_2 = g17 * (w2pp_x + w2_z);
+      g14;
+  const detail::Lanes<4, Real> zz_2 = g14 * g14;
+  const detail::Lanes<4, Real> zw_2 = g15 * (w2pp_x + w2_z);
   const detail::Lanes<4, Real> bax2 = h2_x * w2pp_y + h2_y * w1_z;
   const detail::Lanes<4, Real> bdf2_x = h2_x * zw_2;
   const detail::Lanes<4, Real> bdf2_y = h2_y * zw_2;
   const detail::Lanes<4, Real> bdf2_z = z2_2 * bax2;
-  const detail::Lanes<4, Real> t731 = S2_yz * zz_2;
-  const detail::Lanes<4, Real> t735 = bKy2 * z2_2;
-  const detail::Lanes<4, Real> bal2o_x = bal2p_y - w1_z * g17;
+  const detail::Lanes<4, Real> t794 = S2_yz * zz_2;
+  const detail::Lanes<4, Real> t798 = bKy2 * z2_2;
+  const detail::Lanes<4, Real> bal2o_x = bal2p_y - w1_z * g15;
   const detail::Lanes<4, Real> bW2w11 = w1_z * w1_z;
   const detail::Lanes<4, Real> bW2w22 = w2_z * w2_z;
-  const detail::Lanes<4, Real> bL1U2_z = detail::Lanes<4, Real>{bL1w00, bW2w22[1], bW2w22[2], bW2w22[3]} +
-      bL1w11;
-  const Real t767 = Real(0.19) * bL1U2_z[0];
   const detail::Lanes<4, Real> bW2U0_x = bW2w11 + bW2w22;
   const detail::Lanes<4, Real> bW2U1_x = bal2p_x + bL1w12;
   const Real bW2U1_y = bL1w11[0] + bW2w22[0];
   const detail::Lanes<4, Real> ba3o_x = r3_x * bW2U0_x + (ba2o_y - r3_y * bL1U1_z);
-  const detail::Lanes<4, Real> t793 = r3_x * bW2U1_x;
-  const detail::Lanes<4, Real> bKx3 = S3b_xy * w1_z + (S3b_xx * w2pp_y - S3b_xz * w2_z);
-  const detail::Lanes<4, Real> bKy3 = S3b_yz * w2_z - (S3b_xy * w2pp_y + S3b_yy * w1_z);
-  const detail::Lanes<4, Real> g18 = {state.z[8], state.z[11], state.z[14], state.z[17]};
+  const detail::Lanes<4, Real> t851 = r3_x * bW2U1_x;
+  const detail::Lanes<4, Real> bKx3 = S3b_xx * w2pp_y + (S3b_xy * w1_z - S3b_xz * w2_z);
+  const detail::Lanes<4, Real> bKy3 = S3b_yy * w1_z + (S3b_xy * w2pp_y - S3b_yz * w2_z);
+  const detail::Lanes<4, Real> g16 = {state.z[8], state.z[11], state.z[14], state.z[17]};
   const detail::Lanes<4, Real> z2_3 = detail::Lanes<4, Real>{Real(2.0), Real(-2.0), Real(2.0), Real(-2.0)} *
-      g18;
-  const detail::Lanes<4, Real> zz_3 = g18 * g18;
-  const Real t877 = -state.z[11];
-  const Real t878 = -state.z[17];
-  const detail::Lanes<4, Real> g19 = {state.z[8], t877, state.z[14], t878};
-  const detail::Lanes<4, Real> zw_3 = g19 * (w2_z + (w2_z + g19));
+      g16;
+  const detail::Lanes<4, Real> zz_3 = g16 * g16;
+  const Real t936 = -state.z[11];
+  const Real t937 = -state.z[17];
+  const detail::Lanes<4, Real> g17 = {state.z[8], t936, state.z[14], t937};
+  const detail::Lanes<4, Real> zw_3 = g17 * (w2_z + (w2_z + g17));
   const detail::Lanes<4, Real> bax3 = h3b_x * w2pp_y + h3b_y * w1_z;
   const detail::Lanes<4, Real> bdf3_x = h3b_x * zw_3;
   const detail::Lanes<4, Real> bdf3_y = h3b_y * zw_3;
   const detail::Lanes<4, Real> bdf3_z = z2_3 * bax3;
-  const detail::Lanes<4, Real> t916 = detail::Lanes<4, Real>{r3_y[0], -r3_y[1], r3_y[2], r3_y[3]} *
-      detail::Lanes<4, Real>{bW2U1_y, bdf3_z[1], bdf3_z[2], bdf3_z[3]};
-  const detail::Lanes<4, Real> t920 = S3b_yz * zz_3;
-  const detail::Lanes<4, Real> t924 = bKy3 * z2_3;
-  const detail::Lanes<2, Real> ba5o_z = detail::Lanes<2, Real>{ba1o_x, -ba1o_x} + t767;
-  const Real ba3o_y = t793[0] + (t916[0] - ba5o_z[1]);
-  const Real ba6o_y = t793[1] - (ba5o_z[0] - r3_y[1] * bL1U2_z[1]);
-  const detail::Lanes<2, Real> ba9o_y = detail::Lanes<2, Real>{t793[2], t793[3]} + (ba5o_z + detail::Lanes<2,
-      Real>{r3_y[2], r3_y[3]} * detail::Lanes<2, Real>{bL1U2_z[2], bL1U2_z[3]});
+  const detail::Lanes<4, Real> t974 = S3b_yz * zz_3;
+  const detail::Lanes<4, Real> t978 = bKy3 * z2_3;
+  const detail::Lanes<2, Real> ba5o_z = detail::Lanes<2, Real>{ba1o_x, -ba1o_x} + t693;
+  const Real ba3o_y = r3_y[0] * bW2U1_y + (t851[0] - ba5o_z[1]);
+  const Real bW5U1_y = bL1w11[1] + bW2w22[1];
+  const Real ba6o_y = r3_y[1] * bW5U1_y - (ba5o_z[0] - t851[1]);
+  const Real bW8U1_y = bL1w11[2] + bW2w22[2];
+  const Real bW11U1_y = bL1w11[3] + bW2w22[3];
+  const detail::Lanes<2, Real> ba9o_y = detail::Lanes<2, Real>{r3_y[2], r3_y[3]} * detail::Lanes<2,
+      Real>{bW8U1_y, bW11U1_y} + (ba5o_z + detail::Lanes<2, Real>{t851[2], t851[3]});
   const detail::Lanes<4, Real> bf3c_x = bdf2_x + bdf3_x;
   const detail::Lanes<4, Real> bf3c_z = bdf2_z + bdf3_z;
-  const detail::Lanes<4, Real> bn3c_y = bKx3 * z2_3 - (S3b_xz * zz_3 + (S2_xz * zz_2 + (bKx2 * z2_2 + r3_x *
-      bdf3_z)));
+  const detail::Lanes<4, Real> bn3c_y = bKx2 * z2_2 + (bKx3 * z2_3 - (r3_x * bdf3_z + (S2_xz * zz_2 + S3b_xz *
+      zz_3)));
   const detail::Lanes<4, Real> bn3c_z = r3_x * bdf3_y + r3_y * bdf3_x;
   const detail::Lanes<4, Real> bn2c_x = bn3c_z - detail::Lanes<4, Real>{Real(0.19), Real(0.19), Real(-0.19),
       Real(-0.19)} * bf3c_x;
-  const detail::Lanes<4, Real> t1009 = detail::Lanes<4, Real>{Real(0.19), Real(-0.19), Real(0.19), Real(0.19)}
+  const detail::Lanes<4, Real> t1072 = detail::Lanes<4, Real>{Real(0.19), Real(-0.19), Real(0.19), Real(0.19)}
       * bf3c_z;
-  const detail::Lanes<2, Real> bn8c_y = detail::Lanes<2, Real>{t924[2], t924[3]} + (detail::Lanes<2,
-      Real>{t920[2], t920[3]} + (detail::Lanes<2, Real>{t731[2], t731[3]} + (detail::Lanes<2, Real>{t735[2],
-      t735[3]} - (detail::Lanes<2, Real>{t916[2], t916[3]} + detail::Lanes<2, Real>{t1009[2], t1009[3]}))));
-  const Real bn5c_y = t924[1] + (t920[1] + (t731[1] + (t735[1] + (t916[1] - t1009[1]))));
-  const Real bn2c_y = t924[0] + (t920[0] + (t731[0] + (t735[0] - (r3_y[0] * bdf3_z[0] - t1009[0]))));
-  const detail::Lanes<4, Real> t1033 = c1s_5 * bf3c_z;
-  const detail::Lanes<4, Real> t1037 = s1s * bf3c_x;
-  const detail::Lanes<4, Real> s1s_2 = {s1, t309, s7, s10};
-  const detail::Lanes<4, Real> bf1_y = c1s_2 * bf3c_x + (bdf1_y + s1s_2 * bf3c_z);
-  const detail::Lanes<4, Real> bf1_z = bdf2_y + (bdf1_z + bdf3_y);
-  const detail::Lanes<4, Real> t1065 = c1s * bn2c_x;
-  const detail::Lanes<4, Real> bn2c_ys = {bn2c_y, bn5c_y, bn8c_y[0], bn8c_y[1]};
-  const detail::Lanes<4, Real> t1069 = s1s * bn2c_ys;
-  const detail::Lanes<4, Real> t1073 = c1s * bn2c_ys;
-  const detail::Lanes<4, Real> t1077 = s1s * bn2c_x;
-  const detail::Lanes<4, Real> b_8 = S3b_xz * bal2o_x - (detail::Lanes<4, Real>{Real(0.0018349999999999998),
-      Real(0.0018349999999999998), Real(0.0023000000000000004), Real(0.0023000000000000004)} * bal2p_x -
-      (S3b_yz * (w2pp_y * g17) + (h3b_x * detail::Lanes<4, Real>{ba3o_y, ba6o_y, ba9o_y[0], ba9o_y[1]} +
-      (h3b_y * ba3o_x - (w1_z * bKx3 + (w2pp_y * bKy3 + detail::Lanes<4, Real>{input.u[2], input.u[5],
-      input.u[8], input.u[11]}))))));
+  const detail::Lanes<2, Real> bn8c_y = detail::Lanes<2, Real>{t978[2], t978[3]} + (detail::Lanes<2,
+      Real>{r3_y[2] * bdf3_z[2], r3_y[3] * bdf3_z[3]} - (detail::Lanes<2, Real>{t794[2], t794[3]} +
+      detail::Lanes<2, Real>{t974[2], t974[3]})) + (detail::Lanes<2, Real>{t798[2], t798[3]} +
+      detail::Lanes<2, Real>{t1072[2], t1072[3]});
+  const Real bn5c_y = t794[1] + t974[1] - r3_y[1] * bdf3_z[1] - t978[1] - (t798[1] + t1072[1]);
+  const Real bn2c_y = t978[0] + (r3_y[0] * bdf3_z[0] - (t794[0] + t974[0])) + (t798[0] - t1072[0]);
+  const detail::Lanes<4, Real> b_8 = h3b_x * detail::Lanes<4, Real>{ba3o_y, ba6o_y, ba9o_y[0], ba9o_y[1]} +
+      h3b_y * ba3o_x + (w2pp_y * bKy3 - (w1_z * bKx3 + (detail::Lanes<4, Real>{Real(0.0018349999999999998),
+      Real(0.0018349999999999998), Real(0.0023000000000000004), Real(0.0023000000000000004)} * bal2p_x +
+      detail::Lanes<4, Real>{input.u[2], input.u[5], input.u[8], input.u[11]} - (S3b_xz * bal2o_x + S3b_yz *
+      (w2pp_y * g15)))));
   const detail::Lanes<4, Real> p7_2l_x = detail::Lanes<4, Real>{Real(0.19), Real(0.19), Real(-0.19),
       Real(-0.19)} * h2_y;
   const detail::Lanes<4, Real> p7_2n_x = J2 - p7_2l_x;
-  const detail::Lanes<4, Real> p7_2F_x = s1s_2 * h2_y;
-  const detail::Lanes<4, Real> c1s_3 = {c1, c4, t335, c10};
-  const detail::Lanes<4, Real> p7_2F_y = c1s_3 * h2_y;
+  const detail::Lanes<4, Real> p7_2F_x = s1s * h2_y;
+  const detail::Lanes<4, Real> p7_2F_y = c1s * h2_y;
   const detail::Lanes<4, Real> p8_2l_x = detail::Lanes<4, Real>{Real(0.19), Real(0.19), Real(-0.19),
       Real(-0.19)} * h3b_y;
   const detail::Lanes<4, Real> p8_2n_x = E3 - p8_2l_x;
-  const detail::Lanes<4, Real> p8_2F_x = s1s_2 * h3b_y;
-  const detail::Lanes<4, Real> p8_2F_y = c1s_3 * h3b_y;
-  const detail::Lanes<4, Real> p8_2N_x = c1s_4 * p8_2n_x + s1s_4 * S3b_xz;
+  const detail::Lanes<4, Real> p8_2F_x = s1s * h3b_y;
+  const detail::Lanes<4, Real> p8_2F_y = c1s * h3b_y;
+  const detail::Lanes<4, Real> p8_2N_x = c1s_3 * p8_2n_x + s1s_2 * S3b_xz;
   const detail::Lanes<4, Real> p8_2N_y = c1s * S3b_xz - s1s_3 * p8_2n_x;
   const detail::Lanes<4, Real> L_8_7 = E3 * detail::Lanes<4, Real>{Real(544.9591280653951),
       Real(544.9591280653951), Real(434.78260869565213), Real(434.78260869565213)};
@@ -1434,13 +1434,13 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const detail::Lanes<4, Real> G8_7f_x = p7_2F_x - p8_2F_x * L_8_7;
   const detail::Lanes<4, Real> G8_7f_y = p7_2F_y - p8_2F_y * L_8_7;
   const detail::Lanes<4, Real> G8_7f_z = h2_x - h3b_x * L_8_7;
-  const detail::Lanes<4, Real> G8_7n_x = s1s_4 * S2_xz + (c1s_4 * p7_2n_x - p8_2N_x * L_8_7);
-  const detail::Lanes<4, Real> G8_7n_y = s1s_3 * p7_2n_x - (t301 - p8_2N_y * L_8_7);
+  const detail::Lanes<4, Real> G8_7n_x = p8_2N_x * L_8_7 - (c1s_3 * p7_2n_x + s1s_2 * S2_xz);
+  const detail::Lanes<4, Real> G8_7n_y = p8_2N_y * L_8_7 - (t297 - s1s_3 * p7_2n_x);
   const detail::Lanes<4, Real> G8_7n_z = S2_yz - S3b_yz * L_8_7;
-  const detail::Lanes<4, Real> u8_7 = h2_y * ba2o_y + (detail::Lanes<4, Real>{-h2_x[0], -h2_x[1], h2_x[2],
-      h2_x[3]} * detail::Lanes<4, Real>{ba5o_z[1], ba5o_z[0], ba5o_z[0], ba5o_z[1]} - (J2 * bal2p_x - (S2_xz *
-      bal2p_y + (w1_z * bKx2 - (w2pp_y * bKy2 + (bn3c_z + (detail::Lanes<4, Real>{input.u[1], input.u[4],
-      input.u[7], input.u[10]} + b_8 * L_8_7)))))));
+  const detail::Lanes<4, Real> u8_7 = b_8 * L_8_7 + (bn3c_z - (h2_y * ba2o_y + (detail::Lanes<4,
+      Real>{-h2_x[0], -h2_x[1], h2_x[2], h2_x[3]} * detail::Lanes<4, Real>{ba5o_z[1], ba5o_z[0], ba5o_z[0],
+      ba5o_z[1]} + (S2_xz * bal2p_y - (J2 * bal2p_x + detail::Lanes<4, Real>{input.u[1], input.u[4],
+      input.u[7], input.u[10]})))) + (w1_z * bKx2 - w2pp_y * bKy2));
   const detail::Lanes<4, Real> GD8f_x = p8_2F_x * detail::Lanes<4, Real>{Real(544.9591280653951),
       Real(544.9591280653951), Real(434.78260869565213), Real(434.78260869565213)};
   const detail::Lanes<4, Real> GD8f_y = p8_2F_y * detail::Lanes<4, Real>{Real(544.9591280653951),
@@ -1487,242 +1487,202 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const detail::Lanes<4, Real> GD7n_x = G8_7n_x * invD_7;
   const detail::Lanes<4, Real> GD7n_y = G8_7n_y * invD_7;
   const detail::Lanes<4, Real> GD7n_z = G8_7n_z * invD_7;
-  const detail::Lanes<4, Real> t1451 = G8_7f_x * GD7f_x;
-  const detail::Lanes<4, Real> t1475 = G8_7n_x * GD7f_x;
-  const detail::Lanes<4, Real> t1479 = G8_7n_y * GD7f_x;
-  const detail::Lanes<4, Real> t1487 = G8_7n_x * GD7f_y;
-  const detail::Lanes<4, Real> t1499 = G8_7n_x * GD7f_z;
-  const detail::Lanes<4, Real> t1503 = G8_7n_y * GD7f_z;
+  const detail::Lanes<4, Real> t1538 = G8_7n_x * GD7f_y;
+  const detail::Lanes<4, Real> t1553 = G8_7n_x * GD7f_z;
+  const detail::Lanes<4, Real> t1559 = G8_7n_y * GD7f_z;
   const detail::Lanes<4, Real> I1_7H2_z = I1_8H2_z + G8_7n_z * GD7f_z;
-  const detail::Lanes<4, Real> t1515 = G8_7n_x * GD7n_x;
-  const detail::Lanes<4, Real> t1519 = G8_7n_y * GD7n_x;
-  const detail::Lanes<4, Real> t1527 = G8_7n_y * GD7n_y;
-  const detail::Lanes<4, Real> t1539 = u8_7 * GD7f_x;
-  const detail::Lanes<4, Real> t1551 = u8_7 * GD7n_x;
-  const detail::Lanes<4, Real> t1555 = u8_7 * GD7n_y;
-  const detail::Lanes<4, Real> f1_7n_z = f1_8n_z + u8_7 * GD7n_z;
-  const detail::Lanes<4, Real> I1rH0_z = I1_8H0_z - (h1b_y - G8_7n_z * GD7f_x);
-  const detail::Lanes<4, Real> I1rH1_z = I1_8H1_z - (h1b_x - G8_7n_z * GD7f_y);
-  const detail::Lanes<4, Real> I1rJ_xz = I1_8J_xz + (S1b_xz + G8_7n_z * GD7n_x);
-  const detail::Lanes<4, Real> I1rJ_yz = I1_8J_yz - (S1b_yz + G8_7n_z * GD7n_y);
-  const detail::Lanes<4, Real> I1rJ_zz = I1_8J_zz - (S1b_zz - G8_7n_z * GD7n_z);
+  const detail::Lanes<4, Real> f1_7n_z = f1_8n_z - u8_7 * GD7n_z;
+  const detail::Lanes<4, Real> I1rH0_z = G8_7n_z * GD7f_x - (h1b_y - I1_8H0_z);
+  const detail::Lanes<4, Real> I1rH1_z = G8_7n_z * GD7f_y - (h1b_x - I1_8H1_z);
+  const detail::Lanes<4, Real> I1rJ_xz = G8_7n_z * GD7n_x - (S1b_xz + I1_8J_xz);
+  const detail::Lanes<4, Real> I1rJ_yz = G8_7n_z * GD7n_y - (S1b_yz + I1_8J_yz);
+  const detail::Lanes<4, Real> I1rJ_zz = G8_7n_z * GD7n_z - (S1b_zz - I1_8J_zz);
   const detail::Lanes<4, Real> U1_0i = Real(1.0) / I1rJ_zz;
   const detail::Lanes<4, Real> U1_0sf_x = I1rH0_z * U1_0i;
   const detail::Lanes<4, Real> U1_0sf_y = I1rH1_z * U1_0i;
   const detail::Lanes<4, Real> U1_0sf_z = I1_7H2_z * U1_0i;
   const detail::Lanes<4, Real> U1_0sn_x = I1rJ_xz * U1_0i;
   const detail::Lanes<4, Real> U1_0sn_y = I1rJ_yz * U1_0i;
-  const detail::Lanes<4, Real> U1_0u = g15 * bKx1 + (g14 * bKy1 + (h1b_x * detail::Lanes<4, Real>{ba1o_z,
-      t523, t523, t523} + (h1b_y * detail::Lanes<4, Real>{ba1o_y, ba1o_y, ba1o_y, -ba1o_y} + (bn3c_y -
-      (detail::Lanes<4, Real>{input.u[0], -input.u[3], input.u[6], -input.u[9]} + f1_7n_z)))));
-  const detail::Lanes<4, Real> t1661 = I1rH0_z * U1_0sf_x;
-  const detail::Lanes<4, Real> U1_0IA_xy = G8_7f_y * GD7f_x + (I1_8A_xy - I1rH1_z * U1_0sf_x);
-  const detail::Lanes<4, Real> U1_0IA_xz = G8_7f_z * GD7f_x + (I1_8A_xz - I1_7H2_z * U1_0sf_x);
-  const detail::Lanes<4, Real> U1_0IA_yy = G8_7f_y * GD7f_y + (I1_8A_yy - I1rH1_z * U1_0sf_y);
-  const detail::Lanes<4, Real> U1_0IA_yz = G8_7f_z * GD7f_y + (I1_8A_yz - I1_7H2_z * U1_0sf_y);
-  const detail::Lanes<4, Real> U1_0IA_zz = G8_7f_z * GD7f_z + (I1_8A_zz - I1_7H2_z * U1_0sf_z);
-  const detail::Lanes<4, Real> t1725 = I1rJ_xz * U1_0sf_x;
-  const detail::Lanes<4, Real> t1729 = I1rJ_yz * U1_0sf_x;
-  const detail::Lanes<4, Real> t1733 = I1rJ_xz * U1_0sf_y;
-  const detail::Lanes<4, Real> h1c_x = detail::Lanes<4, Real>{t395, h2_y[3], -I1_8H1_x[2], I1_8H1_x[3]} +
-      (detail::Lanes<4, Real>{h2_y[2], -h2_y[2], -t1487[2], t1487[3]} + (detail::Lanes<4, Real>{h2_y[1],
-      -h2_y[0], t1733[2], -t1733[3]} + h2_y));
-  const Real S1c_xy = S1b_xz[0] - (S1b_xz[1] + (S1b_xz[2] - (S1b_xz[3] + h1c_x[1] * Real(0.05))));
-  const Real bSu0_x = S1c_xy * state.z[4] + (S1c_xx * state.z[3] + S1c_xz * state.z[5]);
-  const detail::Lanes<2, Real> U1_0IH1_x = detail::Lanes<2, Real>{I1_8H1_x[0], I1_8H1_x[1]} -
-      (detail::Lanes<2, Real>{h2_y[0], h2_y[1]} - (detail::Lanes<2, Real>{t1487[0], t1487[1]} -
-      detail::Lanes<2, Real>{t1733[0], t1733[1]}));
-  const detail::Lanes<4, Real> t1776 = I1rJ_xz * U1_0sf_z;
-  const detail::Lanes<4, Real> h1c_z = detail::Lanes<4, Real>{h1b_y[2], -h1b_y[2], I1_8H2_x[2], -I1_8H2_x[3]}
-      - (detail::Lanes<4, Real>{h1b_y[3], h1b_y[3], -t1499[2], t1499[3]} + (detail::Lanes<4, Real>{-h1b_y[1],
-      h1b_y[0], t1776[2], -t1776[3]} - h1b_y));
-  const Real S1c_yz = S1b_xy[0] - (S1b_xy[1] - (S1b_xy[2] - (S1b_xy[3] - Real(0.05) * h1c_z[1])));
-  const Real bSu0_z = S1c_yz * state.z[4] - (S1c_xz * state.z[3] + S1c_zz * state.z[5]);
-  const detail::Lanes<2, Real> U1_0IH2_x = detail::Lanes<2, Real>{I1_8H2_x[0], I1_8H2_x[1]} -
-      (detail::Lanes<2, Real>{h1b_y[0], h1b_y[1]} - (detail::Lanes<2, Real>{t1499[0], t1499[1]} -
-      detail::Lanes<2, Real>{t1776[0], t1776[1]}));
+  const detail::Lanes<4, Real> U1_0u = f1_7n_z - (bn3c_y + (h1b_y * detail::Lanes<4, Real>{ba1o_y, t586,
+      ba1o_y, t586} + (h1b_x * detail::Lanes<4, Real>{ba1o_z, t581, ba1o_z, t581} - detail::Lanes<4,
+      Real>{input.u[0], -input.u[3], input.u[6], -input.u[9]}))) + (g12 * bKy1 + g13 * bKx1);
+  const detail::Lanes<4, Real> U1_0IA_xy = I1rH1_z * U1_0sf_x - (I1_8A_xy + G8_7f_y * GD7f_x);
+  const detail::Lanes<4, Real> U1_0IA_xz = I1_7H2_z * U1_0sf_x - (I1_8A_xz + G8_7f_z * GD7f_x);
+  const detail::Lanes<4, Real> U1_0IA_yy = I1rH1_z * U1_0sf_y - (I1_8A_yy + G8_7f_y * GD7f_y);
+  const detail::Lanes<4, Real> U1_0IA_yz = I1_7H2_z * U1_0sf_y - (I1_8A_yz + G8_7f_z * GD7f_y);
+  const detail::Lanes<4, Real> U1_0IA_zz = I1_7H2_z * U1_0sf_z - (I1_8A_zz + G8_7f_z * GD7f_z);
+  const detail::Lanes<4, Real> t1791 = I1rJ_xz * U1_0sf_y;
+  const Real U10_0IH1_x = t1791[3] + (h2_y[3] + I1_8H1_x[3] - t1538[3]);
+  const Real U7_0IH1_x = t1791[2] + (h2_y[2] + I1_8H1_x[2] - t1538[2]);
+  const Real U4_0IH1_x = t1791[1] + (h2_y[1] + I1_8H1_x[1] - t1538[1]);
+  const Real U1_0IH1_x = t1791[0] - (t1538[0] + (h2_y[0] - I1_8H1_x[0]));
+  const detail::Lanes<4, Real> t1805 = I1rJ_xz * U1_0sf_z;
+  const Real U10_0IH2_x = t1553[3] + (h1b_y[3] - I1_8H2_x[3]) - t1805[3];
+  const Real U7_0IH2_x = t1805[2] + (h1b_y[2] + I1_8H2_x[2] - t1553[2]);
+  const detail::Lanes<2, Real> U1_0IH2_x = detail::Lanes<2, Real>{t1805[0], t1805[1]} - (detail::Lanes<2,
+      Real>{t1553[0], t1553[1]} + (detail::Lanes<2, Real>{h1b_y[0], h1b_y[1]} - detail::Lanes<2,
+      Real>{I1_8H2_x[0], I1_8H2_x[1]}));
   const detail::Lanes<4, Real> t1817 = I1rJ_yz * U1_0sf_z;
-  const Real t1821 = -h1b_x[2];
-  const detail::Lanes<4, Real> h1c_y = detail::Lanes<4, Real>{t1821, t1821, I1_8H2_y[2], -I1_8H2_y[3]} -
-      (detail::Lanes<4, Real>{h1b_x[3], -h1b_x[3], t1503[2], -t1503[3]} + (detail::Lanes<4, Real>{h1b_x[1],
-      -h1b_x[0], t1817[2], -t1817[3]} - h1b_x));
-  const Real S1c_yy = S1b_xx[0] + (S1b_xx[1] + (S1b_xx[2] + (S1b_xx[3] + (h1c_y[1] * Real(0.1) +
-      Real(0.02215)))));
-  const Real bSu0_y = S1c_yy * state.z[4] + (S1c_xy * state.z[3] - S1c_yz * state.z[5]);
-  const Real buh0 = h1c_y[0] * state.z[4] - (h1c_x[0] * state.z[3] - h1c_z[0] * state.z[5]);
-  const detail::Lanes<2, Real> U1_0IH2_y = detail::Lanes<2, Real>{I1_8H2_y[0], I1_8H2_y[1]} -
-      (detail::Lanes<2, Real>{h1b_x[0], h1b_x[1]} + (detail::Lanes<2, Real>{t1503[0], t1503[1]} +
-      detail::Lanes<2, Real>{t1817[0], t1817[1]}));
-  const detail::Lanes<4, Real> t1863 = I1rJ_xz * U1_0sn_x;
-  const detail::Lanes<4, Real> t1867 = I1rJ_yz * U1_0sn_x;
-  const detail::Lanes<4, Real> t1871 = I1rJ_yz * U1_0sn_y;
-  const detail::Lanes<4, Real> t1875 = U1_0sf_x * U1_0u;
-  const detail::Lanes<4, Real> U1_0ff_y = u8_7 * GD7f_y + (f1_8f_y + U1_0sf_y * U1_0u);
-  const detail::Lanes<4, Real> U1_0ff_z = u8_7 * GD7f_z + (f1_8f_z + U1_0sf_z * U1_0u);
-  const detail::Lanes<4, Real> t1903 = U1_0sn_x * U1_0u;
-  const detail::Lanes<4, Real> t1907 = U1_0sn_y * U1_0u;
+  const Real U10_0IH2_y = t1817[3] - (t1559[3] + (h1b_x[3] - I1_8H2_y[3]));
+  const Real U7_0IH2_y = t1817[2] - (t1559[2] + (h1b_x[2] - I1_8H2_y[2]));
+  const detail::Lanes<2, Real> U1_0IH2_y = detail::Lanes<2, Real>{t1817[0], t1817[1]} - (detail::Lanes<2,
+      Real>{t1559[0], t1559[1]} + (detail::Lanes<2, Real>{h1b_x[0], h1b_x[1]} - detail::Lanes<2,
+      Real>{I1_8H2_y[0], I1_8H2_y[1]}));
   const detail::Lanes<4, Real> I1pH0_x = Real(0.05) * U1_0IA_yz;
-  const detail::Lanes<4, Real> t1916 = detail::Lanes<4, Real>{Real(0.05), Real(0.05), Real(0.05), Real(-0.05)}
-      * U1_0IA_zz;
-  const detail::Lanes<2, Real> I7pH0_z = detail::Lanes<2, Real>{h1c_y[2], h1c_y[3]} + detail::Lanes<2,
-      Real>{t1916[2], t1916[3]};
-  const detail::Lanes<2, Real> I1pH0_z = U1_0IH2_y + detail::Lanes<2, Real>{t1916[0], t1916[1]};
+  const detail::Lanes<4, Real> t1865 = Real(0.05) * U1_0IA_zz;
+  const detail::Lanes<2, Real> I7pH0_z = detail::Lanes<2, Real>{U7_0IH2_y, U10_0IH2_y} - detail::Lanes<2,
+      Real>{t1865[2], t1865[3]};
+  const detail::Lanes<2, Real> I1pH0_z = U1_0IH2_y - detail::Lanes<2, Real>{t1865[0], t1865[1]};
   const detail::Lanes<4, Real> I1pH2_x = Real(0.05) * U1_0IA_yy;
-  const detail::Lanes<4, Real> I1pH2_z = G8_7n_y * GD7f_y - (I1_8H1_y - (I1rJ_yz * U1_0sf_y - I1pH0_x));
-  const Real I1cH0_z = I7pH0_z[0] - (I1pH0_z[1] - I1pH0_z[0] - I7pH0_z[1]);
-  const Real I1cH2_z = I1pH2_z[0] - I1pH2_z[1] - I1pH2_z[3] - I1pH2_z[2];
-  const Real I1cJ_xz = Real(0.05) * (I1pH2_z[3] + (I1pH2_z[1] + I1pH2_z[0]) - I1pH2_z[2]);
-  const Real I1cJ_yz = S1b_xy[3] - (S1b_xy[2] - (I1_8J_xy[2] + (S1b_xy[1] + (I1_8J_xy[1] - (t1519[1] +
-      (t1867[1] + (S1b_xy[0] + (I1_8J_xy[0] - (t1519[0] + (t1867[0] + Real(0.05) * (h1c_z[2] + (h1c_z[3] +
-      (U1_0IH2_x[1] - U1_0IH2_x[0])))))))))) - t1867[2] - t1519[2])) - t1867[3] - t1519[3]) - I1_8J_xy[3];
-  const Real I0sH1_z = I1_8H0_y[3] - (t395 + (t1479[3] + (t1729[3] + (h2_y[2] + (I1_8H0_y[2] - (t1479[2] +
-      (t1729[2] - (h2_y[1] - (t1479[1] - (h2_y[0] + (I1_8H0_y[0] - (t1479[0] + (t1729[0] - Real(0.05) *
-      (U1_0IA_xz[2] - (U1_0IA_xz[3] - (U1_0IA_xz[1] + U1_0IA_xz[0])))))) - t1729[1]) - I1_8H0_y[1])))))))));
-  const Real I0sJ_zz = S1b_xx[3] + (S2c_zz[3] - (I1_8J_yy[3] + (t1527[3] - (t1871[3] + (S2c_zz[2] + (S1b_xx[2]
-      - (I1_8J_yy[2] + (t1527[2] - (t1871[2] + (S2c_zz[1] + (S1b_xx[1] - (I1_8J_yy[1] + (t1527[1] - (t1871[1]
-      + (S2c_zz[0] + (S1b_xx[0] - (I1_8J_yy[0] + (t1527[0] - (t1871[0] - (Real(0.05) * (h1c_y[2] + (I7pH0_z[0]
-      + (U1_0IH2_y[1] + (I1pH0_z[1] + (U1_0IH2_y[0] + I1pH0_z[0])))) - h1c_y[3] - I7pH0_z[1]) -
-      Real(0.24852000000000002)))))))))))))))))))));
+  const detail::Lanes<4, Real> I1pH2_z = I1pH0_x - (I1rJ_yz * U1_0sf_y + (I1_8H1_y - G8_7n_y * GD7f_y));
+  const Real I1cH0_z = I7pH0_z[1] - I7pH0_z[0] + (I1pH0_z[1] - I1pH0_z[0]);
+  const Real I1cH2_z = I1pH2_z[3] - I1pH2_z[2] + (I1pH2_z[1] - I1pH2_z[0]);
+  const Real I1cJ_xz = Real(0.05) * (I1pH2_z[3] + I1pH2_z[2] + (I1pH2_z[1] + I1pH2_z[0]));
+  const detail::Lanes<4, Real> t1907 = I1rJ_yz * U1_0sn_x - (I1_8J_xy + G8_7n_y * GD7n_x);
+  const Real I1cJ_yz = Real(0.05) * (U10_0IH2_x + U7_0IH2_x - (U1_0IH2_x[1] + U1_0IH2_x[0])) - (t1907[2] -
+      t1907[1] - (t1907[3] + (t1907[0] - (t435 - (S1b_xy[3] - S1b_xy[0])))));
+  const detail::Lanes<4, Real> t1926 = I1rJ_yz * U1_0sf_x + (I1_8H0_y - G8_7n_y * GD7f_x);
+  const Real I0sH1_z = Real(0.05) * (U1_0IA_xz[3] - U1_0IA_xz[2] + (U1_0IA_xz[1] - U1_0IA_xz[0])) - (t1926[1]
+      - t1926[2] + (t1926[3] - (h1c_x + t1926[0])));
+  const detail::Lanes<2, Real> t1935 = U1_0IH2_y + I1pH0_z;
+  const detail::Lanes<4, Real> t1951 = I1rJ_yz * U1_0sn_y + (S1b_xx - (I1_8J_yy + G8_7n_y * GD7n_y));
+  const Real I0sJ_zz = Real(0.05) * (I7pH0_z[0] + t1935[0] + (t1935[1] + (I7pH0_z[1] + (U10_0IH2_y +
+      U7_0IH2_y)))) - (t1951[1] + t1951[2] + (t1951[3] + (t1951[0] + (t404 + (S11c_zz +
+      Real(0.24852000000000002))))));
   const Real U0_5i = Real(1.0) / I0sJ_zz;
   const Real U0_5sf_x = I1cH0_z * U0_5i;
   const Real U0_5sf_y = I0sH1_z * U0_5i;
   const Real U0_5sf_z = I1cH2_z * U0_5i;
   const Real U0_5sn_x = I1cJ_xz * U0_5i;
   const Real U0_5sn_y = I1cJ_yz * U0_5i;
-  const Real U0_5u = state.z[4] * bSu0_x - (state.z[3] * bSu0_y + (t581[0] + (t585[0] + (t1073[0] + (t1077[0]
-      + (t585[1] - (t1073[1] - (t1077[1] - (t581[2] - (t1073[2] + (t1077[2] + (t581[3] + (t585[3] - (t1073[3]
-      - (t1077[3] - (f1_8n_y[0] - (t1555[0] - (t1907[0] + (t1555[1] + (f1_8n_y[2] - (t1555[2] - (t1907[2] +
-      (t1555[3] - (t1907[3] + Real(0.05) * (bf1_z[2] - (bf1_z[3] + (bf1_z[1] - (bf1_z[0] - (U1_0ff_z[2] +
-      (U1_0ff_z[0] - U1_0ff_z[1]) - U1_0ff_z[3])))))) - f1_8n_y[3]))) - t1907[1]) - f1_8n_y[1]))))))))) -
-      t585[2])))) - t581[1]))))));
-  const Real U0_5IH0_y = h1c_z[3] + (U1_0IH2_x[1] + (U1_0IH2_x[0] - I1cJ_yz * U0_5sf_x)) - h1c_z[2];
-  const Real U0_5IH1_y = t1475[3] + (I1_8H0_x[3] + (I1_8H0_x[2] + (t1475[2] + (I1_8H0_x[1] + (t1475[1] -
-      (t1725[1] + (I1_8H0_x[0] + (t1475[0] - (t1725[0] - I1cJ_yz * U0_5sf_y))))) - t1725[2])) - t1725[3]));
-  const Real U0_5IH2_y = h1c_x[3] + (Real(0.0038000000000000035) - (U1_0IH1_x[1] + (U1_0IH1_x[0] + I1cJ_yz *
-      U0_5sf_z) - h1c_x[2]));
-  const Real U0_5IJ_xy = I1cJ_yz * U0_5sn_x - Real(0.05) * (h1c_x[2] + (U1_0IH1_x[1] - U1_0IH1_x[0] -
-      h1c_x[3]));
-  const Real U0_5IJ_yy = S1b_yy[3] + (S2c_zz[3] - (I1_8J_xx[3] + (t1515[3] - (t1863[3] + (S2c_zz[2] +
-      (S1b_yy[2] - (I1_8J_xx[2] + (t1515[2] - (t1863[2] + (S2c_zz[1] + (S1b_yy[1] - (I1_8J_xx[1] + (t1515[1] -
-      (t1863[1] + (S2c_zz[0] + (S1b_yy[0] - (I1_8J_xx[0] + (t1515[0] - (t1863[0] - (I1cJ_yz * U0_5sn_y -
-      Real(0.22877)))))))))))))))))))));
+  const detail::Lanes<4, Real> t1985 = U1_0sf_z * U1_0u + (u8_7 * GD7f_z - (f1_8f_z - (bdf1_z + (bdf2_y +
+      bdf3_y))));
+  const detail::Lanes<4, Real> bn2c_ys = {bn2c_y, bn5c_y, bn8c_y[0], bn8c_y[1]};
+  const detail::Lanes<4, Real> t2013 = U1_0sn_y * U1_0u + (bKx1 * z2_1 + (u8_7 * GD7n_y + (detail::Lanes<4,
+      Real>{c1, t331, c7, c10} * bn2c_ys + (f1_8n_y - (S1b_xz * zz_1 + s1s_3 * bn2c_x)))));
+  const Real U0_5u = Real(0.05) * (t1985[0] - t1985[1] + (t1985[2] - t1985[3])) - (t2013[2] - t2013[3] -
+      (state.z[3] * bSu0_y + state.z[4] * bSu0_x - (t2013[0] - t2013[1])));
+  const Real U0_5IH0_y = I1cJ_yz * U0_5sf_x - (U10_0IH2_x - U7_0IH2_x + (U1_0IH2_x[0] - U1_0IH2_x[1]));
+  const detail::Lanes<4, Real> t2041 = I1rJ_xz * U1_0sf_x + (I1_8H0_x - G8_7n_x * GD7f_x);
+  const Real U0_5IH1_y = I1cJ_yz * U0_5sf_y + (t2041[0] - t2041[1] - (t2041[2] + t2041[3]));
+  const Real U0_5IH2_y = I1cJ_yz * U0_5sf_z + (U1_0IH1_x - (Real(0.0038000000000000035) + U10_0IH1_x) -
+      (U7_0IH1_x + U4_0IH1_x));
+  const Real U0_5IJ_xy = I1cJ_yz * U0_5sn_x + Real(0.05) * (U7_0IH1_x - U10_0IH1_x - (U4_0IH1_x + U1_0IH1_x));
+  const detail::Lanes<4, Real> t2068 = I1rJ_xz * U1_0sn_x - (I1_8J_xx + G8_7n_x * GD7n_x);
+  const Real U0_5IJ_yy = I1cJ_yz * U0_5sn_y + (t2068[1] + t2068[2] + (t2068[3] + (t2068[0] + (t442 +
+      (S1b_yy[3] + (t404 + (S11c_zz + Real(0.22877))))))));
   const Real U0_4i = Real(1.0) / U0_5IJ_yy;
   const Real U0_4sf_x = U0_5IH0_y * U0_4i;
   const Real U0_4sf_y = U0_5IH1_y * U0_4i;
   const Real U0_4sf_z = U0_5IH2_y * U0_4i;
   const Real U0_4sn_x = U0_5IJ_xy * U0_4i;
-  const Real U0_4u = state.z[5] * bSu0_x + (state.z[3] * bSu0_z - (t573[3] - (t577[3] + (t1065[3] + (t1069[3]
-      - (t573[2] - (t577[2] + (t1065[2] - (t1069[2] + (t573[1] - (t577[1] + (t1065[1] + (t1069[1] - (t573[0] -
-      (t577[0] + (t1065[0] - (t1069[0] + (f1_8n_x[3] + (t1551[3] + (t1903[3] - (f1_8n_x[1] + (t1551[1] +
-      (t1903[1] + (f1_8n_x[0] + (t1551[0] + (t1903[0] - U0_5sn_y * U0_5u))))) - t1903[2] - t1551[2] -
-      f1_8n_x[2])))))))))))))))))))));
-  const Real U0_4IH0_x = I1pH0_x[2] + (I1pH0_x[3] + (I1pH0_x[1] - (I1pH0_x[0] - (I1cJ_xz * U0_5sf_x -
-      U0_5IJ_xy * U0_4sf_x))));
-  const Real U0_4IH1_x = I1cJ_xz * U0_5sf_y - Real(0.05) * (U1_0IA_xy[2] + (U1_0IA_xy[3] - (U1_0IA_xy[1] +
-      U1_0IA_xy[0]))) - U0_5IJ_xy * U0_4sf_y;
-  const Real U0_4IH2_x = I1pH2_x[2] - (I1pH2_x[3] + (I1pH2_x[1] - (I1pH2_x[0] + (I1cJ_xz * U0_5sf_z -
-      U0_5IJ_xy * U0_4sf_z))));
-  const Real U0_4IJ_xx = I1cJ_xz * U0_5sn_x - (Real(0.024550000000000002) - (U0_5IJ_xy * U0_4sn_x + Real(0.05)
-      * (I1pH2_x[2] + (I1pH2_x[3] + (I1pH2_x[1] + I1pH2_x[0])))));
+  const detail::Lanes<4, Real> t2112 = U1_0sn_x * U1_0u - (bKy1 * z2_1 - (u8_7 * GD7n_x + (detail::Lanes<4,
+      Real>{s1, t305, t338, s10} * bn2c_ys + (f1_8n_x + (S1b_yz * zz_1 + c1s_3 * bn2c_x)))));
+  const Real U0_4u = U0_5sn_y * U0_5u - (state.z[3] * bSu0_z - state.z[5] * bSu0_x + (t2112[0] - t2112[1]) -
+      (t2112[2] + t2112[3]));
+  const Real U0_4IH0_x = U0_5IJ_xy * U0_4sf_x - (I1cJ_xz * U0_5sf_x - (I1pH0_x[3] - I1pH0_x[2] + (I1pH0_x[1] -
+      I1pH0_x[0])));
+  const Real U0_4IH1_x = U0_5IJ_xy * U0_4sf_y - (I1cJ_xz * U0_5sf_y + Real(0.05) * (U1_0IA_xy[3] -
+      U1_0IA_xy[2] + (U1_0IA_xy[1] - U1_0IA_xy[0])));
+  const Real U0_4IH2_x = U0_5IJ_xy * U0_4sf_z - (I1cJ_xz * U0_5sf_z + (I1pH2_x[3] - I1pH2_x[2] + (I1pH2_x[1] -
+      I1pH2_x[0])));
+  const Real U0_4IJ_xx = U0_5IJ_xy * U0_4sn_x - (I1cJ_xz * U0_5sn_x + (Real(0.05) * (I1pH2_x[3] + I1pH2_x[2] +
+      (I1pH2_x[1] + I1pH2_x[0])) + Real(0.024550000000000002)));
   const Real U0_3i = Real(1.0) / U0_4IJ_xx;
   const Real U0_3sf_x = U0_4IH0_x * U0_3i;
   const Real U0_3sf_y = U0_4IH1_x * U0_3i;
   const Real U0_3sf_z = U0_4IH2_x * U0_3i;
-  const Real U0_3u = state.z[5] * bSu0_y + (state.z[4] * bSu0_z + (bn3c_y[0] + (bn3c_y[2] - (bn3c_y[3] +
-      (f1_7n_z[0] + (U1_0u[0] + (f1_7n_z[2] + (U1_0u[2] - (f1_7n_z[3] + (U1_0u[3] + (U0_5sn_x * U0_5u -
-      (U0_4sn_x * U0_4u + Real(0.05) * (bf1_y[2] - (bf1_y[1] - (bf1_y[0] + (U1_0ff_y[0] - U1_0ff_y[1] -
-      U1_0ff_y[2] - U1_0ff_y[3])) - bf1_y[3]))))))) - U1_0u[1] - f1_7n_z[1])))) - bn3c_y[1])));
-  const Real U0_3IA_xz = U1_0IA_yz[3] + (U1_0IA_yz[1] + (U1_0IA_yz[0] - (I1cH2_z * U0_5sf_x + (U0_5IH2_y *
-      U0_4sf_x - U0_4IH2_x * U0_3sf_x)))) - U1_0IA_yz[2];
-  const Real U0_3IA_yz = U1_0IA_xy[3] + (U1_0IA_xy[0] + (I1cH2_z * U0_5sf_y + (U0_5IH2_y * U0_4sf_y -
-      U0_4IH2_x * U0_3sf_y)) - U1_0IA_xy[1]) - U1_0IA_xy[2];
-  const Real U0_3IA_zz = U1_0IA_yy[3] + (U1_0IA_yy[2] + (U1_0IA_yy[1] + (U1_0IA_yy[0] + (I1cH2_z * U0_5sf_z -
-      (U0_4IH2_x * U0_3sf_z - U0_5IH2_y * U0_4sf_z)))) - model.front_abduction1_m);
+  const detail::Lanes<4, Real> t2180 = U1_0sf_y * U1_0u + (u8_7 * GD7f_y - (f1_8f_y + (s1s_3 * bf3c_z +
+      (bdf1_y + c1s * bf3c_x))));
+  const detail::Lanes<4, Real> t2192 = U1_0u + (bn3c_y - f1_7n_z);
+  const Real U0_3u = U0_4sn_x * U0_4u - (U0_5sn_x * U0_5u + (Real(0.05) * (t2180[0] - t2180[1] + (t2180[2] -
+      t2180[3])) + (t2192[2] - t2192[3] + (state.z[4] * bSu0_z + state.z[5] * bSu0_y + (t2192[0] -
+      t2192[1])))));
+  const Real U0_3IA_xz = U0_4IH2_x * U0_3sf_x - (U0_5IH2_y * U0_4sf_x - (I1cH2_z * U0_5sf_x - (U1_0IA_yz[3] +
+      U1_0IA_yz[2] + (U1_0IA_yz[1] + U1_0IA_yz[0]))));
+  const Real U0_3IA_yz = U0_4IH2_x * U0_3sf_y - (U0_5IH2_y * U0_4sf_y - (I1cH2_z * U0_5sf_y + (U1_0IA_xy[3] +
+      U1_0IA_xy[2] + (U1_0IA_xy[1] + U1_0IA_xy[0]))));
+  const Real U0_3IA_zz = U0_4IH2_x * U0_3sf_z - (U0_5IH2_y * U0_4sf_z - (I1cH2_z * U0_5sf_z + (U1_0IA_yy[2] +
+      U1_0IA_yy[1] + (U1_0IA_yy[0] + (U1_0IA_yy[3] + model.front_abduction1_m)))));
   const Real U0_2i = Real(1.0) / U0_3IA_zz;
   const Real U0_2sf_x = U0_3IA_xz * U0_2i;
   const Real U0_2sf_y = U0_3IA_yz * U0_2i;
-  const Real U0_2u = h1c_z[0] * buw0 - (state.z[5] * buh0 - (bf1_y[2] + (bf1_y[1] + (bf1_y[0] + (U1_0ff_y[3] +
-      (U1_0ff_y[1] + (U1_0ff_y[0] - (U0_5sf_z * U0_5u + (U0_4sf_z * U0_4u - U0_3sf_z * U0_3u))) -
-      U1_0ff_y[2])))) - bf1_y[3]));
-  const Real U0_2IA_xy = U1_0IA_xz[2] + (U1_0IA_xz[3] + (U1_0IA_xz[0] - (I0sH1_z * U0_5sf_x + (U0_5IH1_y *
-      U0_4sf_x + (U0_3IA_yz * U0_2sf_x - U0_4IH1_x * U0_3sf_x))) - U1_0IA_xz[1]));
-  const Real U0_2IA_yy = I1_8A_xx[3] - (model.front_abduction1_m - (t1451[3] - (t1661[3] - (I1_8A_xx[2] +
-      (t1451[2] - (t1661[2] - (I1_8A_xx[1] + (t1451[1] - (t1661[1] - (I1_8A_xx[0] + (t1451[0] - (t1661[0] -
-      (I0sH1_z * U0_5sf_y - (U0_4IH1_x * U0_3sf_y + U0_3IA_yz * U0_2sf_y - U0_5IH1_y * U0_4sf_y))))))))))))));
+  const Real U0_2u = U0_3sf_z * U0_3u - (U0_4sf_z * U0_4u - (U0_5sf_z * U0_5u - (t2180[1] + t2180[2] +
+      (t2180[3] + (t2180[0] - (state.z[5] * buh0 - h1c_z * buw0))))));
+  const Real U0_2IA_xy = U0_3IA_yz * U0_2sf_x - (U0_4IH1_x * U0_3sf_x - (U0_5IH1_y * U0_4sf_x - (I0sH1_z *
+      U0_5sf_x - (U1_0IA_xz[3] + U1_0IA_xz[2] + (U1_0IA_xz[1] + U1_0IA_xz[0])))));
+  const detail::Lanes<4, Real> t2258 = I1rH0_z * U1_0sf_x - (I1_8A_xx + G8_7f_x * GD7f_x);
+  const Real U0_2IA_yy = U0_3IA_yz * U0_2sf_y - (U0_4IH1_x * U0_3sf_y - (U0_5IH1_y * U0_4sf_y - (I0sH1_z *
+      U0_5sf_y + (t2258[1] + t2258[2] + (t2258[3] + (model.front_abduction1_m + t2258[0]))))));
   const Real U0_1i = Real(1.0) / U0_2IA_yy;
   const Real U0_1sf_x = U0_2IA_xy * U0_1i;
-  const Real U0_1u = h1c_y[0] * buw0 - (state.z[4] * buh0 + (bdf1_x[3] - (t1033[3] - (t1037[3] - (t1033[2] -
-      (t1037[2] + (bdf1_x[1] - (t1033[1] - (t1037[1] - (bdf1_x[0] + (t1033[0] - (t1037[0] + (f1_8f_x[3] +
-      (t1539[3] + (t1875[3] + (f1_8f_x[2] + (t1539[2] + (t1875[2] - (f1_8f_x[1] + (t1539[1] + (t1875[1] -
-      (f1_8f_x[0] + (t1539[0] + (t1875[0] - (U0_5sf_y * U0_5u - (U0_3sf_y * U0_3u - U0_2sf_y * U0_2u -
-      U0_4sf_y * U0_4u))))))))))))))))))))) - bdf1_x[2])))));
-  const Real U0_1IA_xx = U1_0IA_zz[3] - (model.front_abduction1_m - (U1_0IA_zz[2] + (U1_0IA_zz[1] +
-      (U1_0IA_zz[0] + (I1cH0_z * U0_5sf_x - (U0_4IH0_x * U0_3sf_x + (U0_3IA_xz * U0_2sf_x + U0_2IA_xy *
-      U0_1sf_x) - U0_5IH0_y * U0_4sf_x))))));
-  const Real U0_0u = h1c_x[0] * buw0 + (state.z[3] * buh0 + (bf1_z[3] + (bf1_z[2] + (bf1_z[1] + (bf1_z[0] -
-      (U1_0ff_z[3] + (U1_0ff_z[2] + (U1_0ff_z[1] + (U1_0ff_z[0] + (U0_5sf_x * U0_5u - (U0_3sf_x * U0_3u +
-      (U0_2sf_x * U0_2u - U0_1sf_x * U0_1u) - U0_4sf_x * U0_4u)))))))))));
+  const detail::Lanes<4, Real> t2290 = U1_0sf_x * U1_0u + (u8_7 * GD7f_x - (f1_8f_x + (s1s * bf3c_x - (bdf1_x
+      + c1s_2 * bf3c_z))));
+  const Real U0_1u = U0_2sf_y * U0_2u - (U0_3sf_y * U0_3u - (U0_4sf_y * U0_4u - (U0_5sf_y * U0_5u - (t2290[1]
+      + t2290[2] + (t2290[3] + (t2290[0] + (state.z[4] * buh0 - h1c_y * buw0)))))));
+  const Real U0_1IA_xx = U0_2IA_xy * U0_1sf_x - (U0_3IA_xz * U0_2sf_x - (U0_4IH0_x * U0_3sf_x - (U0_5IH0_y *
+      U0_4sf_x - (I1cH0_z * U0_5sf_x + (U1_0IA_zz[2] + U1_0IA_zz[1] + (U1_0IA_zz[0] + (U1_0IA_zz[3] +
+      model.front_abduction1_m)))))));
+  const Real U0_0u = U0_1sf_x * U0_1u - (U0_2sf_x * U0_2u - (U0_3sf_x * U0_3u - (U0_4sf_x * U0_4u - (U0_5sf_x
+      * U0_5u + (t1985[1] + t1985[2] + (t1985[3] + (t1985[0] - (state.z[3] * buh0 - h1c_x * buw0))))))));
   const Real acc0u = U0_0u / U0_1IA_xx;
   const Real acc0u_2 = U0_1i * U0_1u;
   const Real zdot_1 = acc0u_2 - U0_1sf_x * acc0u;
   const Real acc0u_3 = U0_2i * U0_2u;
-  const Real zdot_2 = U0_2sf_x * acc0u + (acc0u_3 + U0_2sf_y * zdot_1);
+  const Real zdot_2 = U0_2sf_y * zdot_1 - (acc0u_3 - U0_2sf_x * acc0u);
   const Real acc0u_4 = U0_3i * U0_3u;
-  const Real zdot_3 = U0_3sf_x * acc0u + (acc0u_4 - (U0_3sf_y * zdot_1 - U0_3sf_z * zdot_2));
+  const Real zdot_3 = U0_3sf_z * zdot_2 - (U0_3sf_y * zdot_1 - (acc0u_4 - U0_3sf_x * acc0u));
   const Real acc0u_5 = U0_4i * U0_4u;
-  const Real zdot_4 = U0_4sf_x * acc0u + (acc0u_5 + (U0_4sf_z * zdot_2 + U0_4sn_x * zdot_3 - U0_4sf_y *
-      zdot_1));
+  const Real zdot_4 = U0_4sn_x * zdot_3 - (U0_4sf_z * zdot_2 - (U0_4sf_y * zdot_1 - (acc0u_5 - U0_4sf_x *
+      acc0u)));
   const Real acc0u_6 = U0_5i * U0_5u;
-  const Real zdot_5 = U0_5sf_x * acc0u + (acc0u_6 - (U0_5sf_y * zdot_1 - (U0_5sf_z * zdot_2 - (U0_5sn_x *
-      zdot_3 + U0_5sn_y * zdot_4))));
-  const Real t2397 = Real(0.05) * zdot_5;
-  const Real acc1o_x = acc0u + t2397;
-  const Real t2399 = Real(0.05) * zdot_3;
-  const Real acc1o_z = zdot_2 - t2399;
+  const Real zdot_5 = U0_5sn_y * zdot_4 - (U0_5sn_x * zdot_3 - (U0_5sf_z * zdot_2 - (U0_5sf_y * zdot_1 -
+      (acc0u_6 - U0_5sf_x * acc0u))));
+  const Real t2360 = Real(0.05) * zdot_5;
+  const Real acc1o_x = acc0u - t2360;
+  const Real t2362 = Real(0.05) * zdot_3;
+  const Real acc1o_z = zdot_2 + t2362;
   const detail::Lanes<4, Real> acc1u = U1_0i * U1_0u;
-  const Real t2405 = -zdot_1;
-  const Real t2410 = -zdot_4;
-  const Real t2415 = -zdot_5;
+  const Real t2372 = -zdot_4;
+  const Real t2377 = -zdot_5;
   const detail::Lanes<4, Real> y_7 = u8_7 * invD_7;
   const detail::Lanes<4, Real> y_8 = b_8 * detail::Lanes<4, Real>{Real(544.9591280653951),
       Real(544.9591280653951), Real(434.78260869565213), Real(434.78260869565213)};
-  const Real acc4o_x = acc0u - t2397;
-  const Real acc4o_z = zdot_2 + t2399;
-  const Real t2466 = -acc1o_z;
-  const Real t2471 = -zdot_3;
-  const detail::Lanes<4, Real> zdot_1s = {zdot_1, t2405, zdot_1, zdot_1};
-  const detail::Lanes<4, Real> acc1o_zs = {acc1o_z, acc4o_z, t2466, acc4o_z};
+  const Real acc4o_x = acc0u + t2360;
+  const Real acc4o_z = zdot_2 - t2362;
+  const Real t2432 = -zdot_3;
   const detail::Lanes<4, Real> acc1o_xs = {acc1o_x, acc4o_x, acc1o_x, acc4o_x};
-  const detail::Lanes<4, Real> t2410s = {t2410, t2410, zdot_4, zdot_4};
-  const detail::Lanes<4, Real> t2471s = {t2471, zdot_3, t2471, zdot_3};
-  const detail::Lanes<4, Real> zdot_5s = {zdot_5, t2415, zdot_5, t2415};
-  const detail::Lanes<4, Real> zdot_6 = U1_0sf_x * zdot_1s - (acc1u + (U1_0sf_y * acc1o_zs - (U1_0sf_z *
-      acc1o_xs - (U1_0sn_x * t2410s + (t2471s - U1_0sn_y * zdot_5s)))));
-  const detail::Lanes<4, Real> al1_0_z = t2471s + zdot_6;
-  const detail::Lanes<4, Real> yh_7 = GD7f_x * zdot_1s + (y_7 - (GD7f_y * acc1o_zs - (GD7f_z * acc1o_xs -
-      (GD7n_x * t2410s + (GD7n_y * zdot_5s + GD7n_z * al1_0_z)))));
-  const detail::Lanes<4, Real> zdot_8 = GD8f_x * zdot_1s + (y_8 - (GD8f_y * acc1o_zs - (GD8f_z * acc1o_xs -
-      (GD8n_x * t2410s - (GD8n_y * zdot_5s - (GD8n_z * al1_0_z + L_8_7 * yh_7))))));
-  const Real vdot0_x = q0r0_y * zdot_1 + (q0r0_x * acc0u + q0r0_z * zdot_2);
-  const Real vdot0_y = q0r1_y * zdot_1 + (q0r1_x * acc0u - q0r1_z * zdot_2);
-  const Real zdot_2_2 = q0r2_y * zdot_1 - (q0r2_x * acc0u + (q0r2_z * zdot_2 - Real(9.81)));
+  const detail::Lanes<4, Real> zdot_5s = {zdot_5, t2377, zdot_5, t2377};
+  const detail::Lanes<4, Real> zdot_4s = {zdot_4, t2372, t2372, t2372};
+  const detail::Lanes<4, Real> acc1o_zs = {acc1o_z, acc4o_z, acc1o_z, acc4o_z};
+  const detail::Lanes<4, Real> zdot_3s = {zdot_3, t2432, zdot_3, t2432};
+  const detail::Lanes<4, Real> zdot_6 = U1_0sf_z * acc1o_xs + (U1_0sn_y * zdot_5s + (U1_0sn_x * zdot_4s +
+      (U1_0sf_y * acc1o_zs + (zdot_3s - (acc1u + U1_0sf_x * zdot_1)))));
+  const detail::Lanes<4, Real> al1_0_z = zdot_3s - zdot_6;
+  const detail::Lanes<4, Real> yh_7 = GD7n_z * al1_0_z + (GD7f_z * acc1o_xs + (GD7n_y * zdot_5s + (GD7n_x *
+      zdot_4s + (GD7f_y * acc1o_zs + (y_7 - GD7f_x * zdot_1)))));
+  const detail::Lanes<4, Real> zdot_8 = L_8_7 * yh_7 - (GD8n_z * al1_0_z + (GD8f_z * acc1o_xs - (GD8n_y *
+      zdot_5s + (GD8n_x * zdot_4s - (GD8f_y * acc1o_zs - (y_8 + GD8f_x * zdot_1))))));
+  const Real vdot0_x = q0r0_z * zdot_2 - (q0r0_x * acc0u - q0r0_y * zdot_1);
+  const Real vdot0_y = q0r1_z * zdot_2 + (q0r1_x * acc0u - q0r1_y * zdot_1);
+  const Real zdot_2_2 = q0r2_z * zdot_2 - (q0r2_y * zdot_1 + (q0r2_x * acc0u + Real(9.81)));
   zdot[0] = -vdot0_x;
-  zdot[1] = vdot0_y;
-  zdot[2] = -zdot_2_2;
-  zdot[3] = zdot_3;
+  zdot[1] = -vdot0_y;
+  zdot[2] = zdot_2_2;
+  zdot[3] = -zdot_3;
   zdot[4] = zdot_4;
   zdot[5] = -zdot_5;
-  zdot[6] = -zdot_6[0];
-  zdot[7] = -yh_7[0];
+  zdot[6] = zdot_6[0];
+  zdot[7] = yh_7[0];
   zdot[8] = -zdot_8[0];
-  zdot[9] = zdot_6[1];
-  zdot[10] = -yh_7[1];
+  zdot[9] = -zdot_6[1];
+  zdot[10] = yh_7[1];
   zdot[11] = -zdot_8[1];
-  zdot[12] = -zdot_6[2];
-  zdot[13] = -yh_7[2];
+  zdot[12] = zdot_6[2];
+  zdot[13] = yh_7[2];
   zdot[14] = -zdot_8[2];
-  zdot[15] = zdot_6[3];
-  zdot[16] = -yh_7[3];
+  zdot[15] = -zdot_6[3];
+  zdot[16] = yh_7[3];
   zdot[17] = -zdot_8[3];
 }
 
@@ -1748,7 +1708,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real q001 = q0d1 * state.y[3];
   const Real q002 = q0d2 * state.y[3];
   const Real q003 = q0d3 * state.y[3];
-  const Real q0r0_x = q022 + q033 - Real(1.0);
+  const Real q0r0_x = q033 + (q022 - Real(1.0));
   const Real q0r0_y = q012 - q003;
   const Real q0r0_z = q013 + q002;
   const Real q0r1_x = q012 + q003;
@@ -1797,16 +1757,16 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const detail::Lanes<4, Real> J2 = detail::Lanes<4, Real>{Real(0.010801999999999999),
       Real(0.010801999999999999), Real(0.011708), Real(0.011708)} + t37s * detail::Lanes<4,
       Real>{Real(0.00567), Real(0.00567), Real(0.00672), Real(0.00672)};
-  const detail::Lanes<4, Real> S2_xx = s2s * S2b_t - (detail::Lanes<4, Real>{Real(0.008712), Real(0.008712),
-      Real(0.009153), Real(0.009153)} + (S3b_xx - Real(2.0) * (r3_x * h3b_x)));
-  const detail::Lanes<4, Real> S2_xy = S2b_xy - (r3_y * h3b_x + (S3b_xy - r3_x * h3b_y));
+  const detail::Lanes<4, Real> S2_xx = S3b_xx - (h3b_x * (Real(2.0) * r3_x) - (detail::Lanes<4,
+      Real>{Real(0.008712), Real(0.008712), Real(0.009153), Real(0.009153)} - s2s * S2b_t));
+  const detail::Lanes<4, Real> S2_xy = S3b_xy - S2b_xy - (r3_x * h3b_y - r3_y * h3b_x);
   const detail::Lanes<4, Real> S2_xz = S3b_xz - S2b_xz;
   const detail::Lanes<4, Real> S2_yz = S3b_yz + S2b_yz;
-  const detail::Lanes<4, Real> S2_yy = J2 + S2_xx;
+  const detail::Lanes<4, Real> S2_yy = J2 - S2_xx;
   const detail::Lanes<4, Real> S2c_xz = detail::Lanes<4, Real>{Real(0.0147372), Real(0.0147372),
       Real(-0.014855), Real(-0.014855)} - S2_yz;
-  const detail::Lanes<4, Real> S2c_yy = Real(0.00025) - S2_xx;
-  const detail::Lanes<4, Real> S2c_yz = S2_xy + detail::Lanes<4, Real>{Real(0.19), Real(0.19), Real(-0.19),
+  const detail::Lanes<4, Real> S2c_yy = Real(0.00025) + S2_xx;
+  const detail::Lanes<4, Real> S2c_yz = S2_xy - detail::Lanes<4, Real>{Real(0.19), Real(0.19), Real(-0.19),
       Real(-0.19)} * h2_x;
   const detail::Lanes<4, Real> S1b_zz = detail::Lanes<4, Real>{Real(0.00539936), Real(0.00539936),
       Real(0.0054378000000000004), Real(0.0054378000000000004)} + S2c_yy;
@@ -1815,57 +1775,60 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t291 = -s4;
   const Real t292 = -s10;
   const detail::Lanes<4, Real> c1s = {c1, c4, c7, c10};
-  const detail::Lanes<4, Real> s1s_2 = {s1, t291, s7, t292};
-  const detail::Lanes<4, Real> S1b_t = Real(2.0) * (c1s * S2_xz) + s1s_2 * S1b_d;
+  const detail::Lanes<4, Real> s1s_3 = {s1, t291, s7, t292};
+  const detail::Lanes<4, Real> S1b_t = S2_xz * (Real(2.0) * c1s) + s1s_3 * S1b_d;
   const detail::Lanes<4, Real> S1b_xx = detail::Lanes<4, Real>{Real(0.00539936), Real(0.00539936),
-      Real(0.0054378000000000004), Real(0.0054378000000000004)} - s1s_2 * S1b_t;
+      Real(0.0054378000000000004), Real(0.0054378000000000004)} - s1s_3 * S1b_t;
   const detail::Lanes<4, Real> S1b_xy = S2_xz - c1s * S1b_t;
   const Real t317 = -c4;
+  const Real t318 = -c7;
   const Real t319 = -c10;
-  const detail::Lanes<4, Real> S1b_xz = detail::Lanes<4, Real>{c1, t317, -c7, t319} * S2c_xz -
-      detail::Lanes<4, Real>{s1, s4, -s7, s10} * S2c_yz;
-  const detail::Lanes<4, Real> S1b_yz = c1s * S2c_yz + s1s_2 * S2c_xz;
+  const Real t324 = -s7;
+  const detail::Lanes<4, Real> s1s_2 = {s1, s4, t324, s10};
+  const detail::Lanes<4, Real> S1b_xz = detail::Lanes<4, Real>{c1, t317, t318, t319} * S2c_xz + s1s_2 *
+      S2c_yz;
+  const detail::Lanes<4, Real> S1b_yz = c1s * S2c_yz - s1s_3 * S2c_xz;
   const detail::Lanes<4, Real> S1b_yy = S1b_zz - S1b_xx;
   const detail::Lanes<4, Real> h1b_x = c1s * detail::Lanes<4, Real>{Real(0.07788), Real(0.07788),
-      Real(0.0785), Real(0.0785)} - s1s_2 * h2_x;
+      Real(0.0785), Real(0.0785)} - s1s_3 * h2_x;
   const detail::Lanes<4, Real> s1s = {s1, s4, s7, s10};
-  const detail::Lanes<4, Real> c1s_3 = {c1, t317, c7, t319};
+  const detail::Lanes<4, Real> c1s_2 = {c1, t317, c7, t319};
   const detail::Lanes<4, Real> h1b_y = s1s * detail::Lanes<4, Real>{Real(0.07788), Real(0.07788),
-      Real(0.0785), Real(0.0785)} + c1s_3 * h2_x;
+      Real(0.0785), Real(0.0785)} + c1s_2 * h2_x;
   const Real t375 = h2_y[1] + h2_y[0];
   const Real t376 = h2_y[3] + h2_y[2];
-  const Real h1c_x = t375 + t376 + Real(0.0038000000000000035);
-  const Real h1c_y = h1b_x[0] - (h1b_x[1] + (h1b_x[3] - h1b_x[2]));
-  const Real h1c_z = h1b_y[0] - (h1b_y[1] + (h1b_y[3] - h1b_y[2]));
-  const Real S1c_xx = (t375 - t376) * Real(0.38) - (S2_yy[0] + (S2_yy[1] + (S2_yy[3] + S2_yy[2]))) -
-      Real(0.22637000000000002);
-  const Real S1c_xy = (h2_y[0] - (h2_y[1] + (h2_y[3] - h2_y[2]))) * Real(0.05) - (S1b_xz[3] - (S1b_xz[2] -
-      (S1b_xz[1] + S1b_xz[0])));
-  const Real S1c_xz = S1b_yz[0] + (S1b_yz[1] + (S1b_yz[3] + S1b_yz[2]));
-  const Real S1c_yy = (h1b_x[0] + (h1b_x[1] + (h1b_x[3] + h1b_x[2]))) * Real(0.1) + (S1b_xx[3] + (S1b_xx[2] +
-      (S1b_xx[1] + S1b_xx[0]))) + Real(0.02215);
-  const Real S1c_yz = Real(0.05) * (h1b_y[0] + (h1b_y[1] + (h1b_y[3] + h1b_y[2]))) + (S1b_xy[3] - (S1b_xy[2] -
-      (S1b_xy[1] - S1b_xy[0])));
-  const Real S1c_zz = S1b_yy[0] + (S1b_yy[1] + (S1b_yy[3] + S1b_yy[2])) + Real(0.0024000000000000002);
-  const Real S0b_zz = S1c_xx - S1c_yy;
+  const Real h1c_x = t376 + (t375 + Real(0.0038000000000000035));
+  const Real h1c_y = h1b_x[3] - h1b_x[2] + (h1b_x[1] - h1b_x[0]);
+  const Real h1c_z = h1b_y[3] - h1b_y[2] + (h1b_y[1] - h1b_y[0]);
+  const Real S1c_xx = S2_yy[0] - (t375 - t376) * Real(0.38) + (S2_yy[3] + Real(0.22637000000000002) +
+      (S2_yy[2] + S2_yy[1]));
+  const Real S1c_xy = S1b_xz[2] - S1b_xz[1] - (S1b_xz[0] + (S1b_xz[3] + (h2_y[3] - h2_y[2] + (h2_y[1] -
+      h2_y[0])) * Real(0.05)));
+  const Real S1c_xz = S1b_yz[3] + S1b_yz[2] + (S1b_yz[1] + S1b_yz[0]);
+  const Real S1c_yy = S1b_xx[2] + S1b_xx[1] + (S1b_xx[0] + (S1b_xx[3] + ((h1b_x[3] + h1b_x[2] + (h1b_x[1] +
+      h1b_x[0])) * Real(0.1) + Real(0.02215))));
+  const Real S1c_yz = S1b_xy[2] - S1b_xy[1] + (S1b_xy[0] - (S1b_xy[3] + Real(0.05) * (h1b_y[3] + h1b_y[2] +
+      (h1b_y[1] + h1b_y[0]))));
+  const Real S1c_zz = S1b_yy[2] + S1b_yy[1] + (S1b_yy[0] + (S1b_yy[3] + Real(0.0024000000000000002)));
+  const Real S0b_zz = S1c_xx + S1c_yy;
   const Real Jx0 = S1c_yy + S1c_zz;
-  const Real Jy0 = S1c_xx - S1c_zz;
+  const Real Jy0 = S1c_xx + S1c_zz;
   const detail::Lanes<4, Real> g9 = {state.z[6], state.z[9], state.z[12], state.z[15]};
   const detail::Lanes<4, Real> w1_z = state.z[3] + g9;
-  const detail::Lanes<4, Real> w2pp_x = c1s_3 * state.z[4] + s1s_2 * state.z[5];
+  const detail::Lanes<4, Real> w2pp_x = c1s_2 * state.z[4] + s1s_3 * state.z[5];
   const detail::Lanes<4, Real> w2pp_y = s1s * state.z[4] - c1s * state.z[5];
   const Real t471 = -state.z[10];
   const Real t474 = -state.z[16];
   const detail::Lanes<4, Real> g12 = {state.z[7], t471, state.z[13], t474};
   const detail::Lanes<4, Real> w2_z = w2pp_x + g12;
   const Real fall0_z = zdot[2] + Real(9.81);
-  const Real afallW_x = q0r2_x * fall0_z - (q0r0_x * zdot[0] - q0r1_x * zdot[1]);
-  const Real afallW_y = q0r2_y * fall0_z + (q0r0_y * zdot[0] - q0r1_y * zdot[1]);
+  const Real afallW_x = q0r0_x * zdot[0] - (q0r1_x * zdot[1] + q0r2_x * fall0_z);
+  const Real afallW_y = q0r1_y * zdot[1] - (q0r0_y * zdot[0] + q0r2_y * fall0_z);
   const Real afallW_z = q0r2_z * fall0_z - (q0r0_z * zdot[0] + q0r1_z * zdot[1]);
-  const Real aSu0_x = S1c_xz * state.z[5] - (S1c_xx * state.z[3] + S1c_xy * state.z[4]);
-  const Real aSu0_y = S1c_yz * state.z[5] - (S1c_xy * state.z[3] - S1c_yy * state.z[4]);
-  const Real aSu0_z = S1c_zz * state.z[5] + (S1c_xz * state.z[3] + S1c_yz * state.z[4]);
-  const Real auh0 = h1c_z * state.z[5] - (h1c_x * state.z[3] - h1c_y * state.z[4]);
+  const Real aSu0_x = S1c_xy * state.z[4] - (S1c_xx * state.z[3] - S1c_xz * state.z[5]);
+  const Real aSu0_y = S1c_yz * state.z[5] + (S1c_xy * state.z[3] - S1c_yy * state.z[4]);
+  const Real aSu0_z = S1c_zz * state.z[5] - (S1c_xz * state.z[3] + S1c_yz * state.z[4]);
+  const Real auh0 = h1c_z * state.z[5] + (h1c_x * state.z[3] + h1c_y * state.z[4]);
   const Real aL0w00 = state.z[3] * state.z[3];
   const Real aL0w22 = state.z[5] * state.z[5];
   const Real aL0U1_y = aL0w00 + aL0w22;
@@ -1875,9 +1838,9 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real aL0U0_y = zdot[5] - aL0w01;
   const Real aL0U2_y = zdot[3] + aL0w12;
   const Real t564 = Real(0.05) * aL0U0_y;
-  const detail::Lanes<2, Real> aa1o_x = afallW_x - detail::Lanes<2, Real>{t564, -t564};
+  const detail::Lanes<2, Real> aa1o_x = afallW_x + detail::Lanes<2, Real>{t564, -t564};
   const Real t568 = Real(0.05) * aL0U1_y;
-  const Real aa1o_y = afallW_y - t568;
+  const Real aa1o_y = afallW_y + t568;
   const Real t570 = Real(0.05) * aL0U2_y;
   const Real aa1o_z = afallW_z - t570;
   const Real t576 = -state.z[4];
@@ -1885,7 +1848,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const detail::Lanes<4, Real> aKx1 = S1b_xy * detail::Lanes<4, Real>{state.z[5], t581, t581, t581} - (S1b_xz
       * state.z[3] + S1b_xx * detail::Lanes<4, Real>{state.z[4], state.z[4], t576, state.z[4]});
   const detail::Lanes<4, Real> g10 = {state.z[4], t576, state.z[4], t576};
-  const detail::Lanes<4, Real> aKy1 = S1b_yy * state.z[5] + (S1b_yz * state.z[3] - S1b_xy * g10);
+  const detail::Lanes<4, Real> aKy1 = S1b_yy * state.z[5] - (S1b_yz * state.z[3] + S1b_xy * g10);
   const Real t622 = -zdot[3];
   const Real t627 = -zdot[4];
   const detail::Lanes<4, Real> z2_1 = Real(2.0) * g9;
@@ -1893,30 +1856,25 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const detail::Lanes<4, Real> zw_1 = g9 * (state.z[3] + w1_z);
   const detail::Lanes<4, Real> aax1 = h1b_x * g10 + h1b_y * detail::Lanes<4, Real>{state.z[5], t581,
       state.z[5], t581};
-  const detail::Lanes<4, Real> g13 = {zdot[6], zdot[9], zdot[12], zdot[15]};
-  const detail::Lanes<4, Real> t669 = h1b_y * g13;
-  const detail::Lanes<4, Real> t673 = h1b_x * zw_1;
   const detail::Lanes<4, Real> adf1_z = z2_1 * aax1;
-  const detail::Lanes<4, Real> t689 = S1b_xz * g13;
-  const detail::Lanes<4, Real> t693 = S1b_yz * zz_1;
-  const detail::Lanes<4, Real> t697 = aKy1 * z2_1;
-  const detail::Lanes<4, Real> t701 = S1b_yz * g13;
-  const detail::Lanes<4, Real> t705 = S1b_xz * zz_1;
-  const detail::Lanes<4, Real> t709 = aKx1 * z2_1;
-  const Real t713 = -zdot[15];
-  const detail::Lanes<4, Real> adn1_z = S1b_zz * detail::Lanes<4, Real>{zdot[6], zdot[9], zdot[12], t713};
+  const Real t689 = -zdot[12];
+  const Real t714 = -zdot[15];
+  const detail::Lanes<4, Real> adn1_z = S1b_zz * detail::Lanes<4, Real>{zdot[6], zdot[9], zdot[12], t714};
   const detail::Lanes<4, Real> aal1o_x = zdot[4] + g9 * state.z[5];
   const detail::Lanes<4, Real> aal1o_y = zdot[5] - g9 * state.z[4];
   const detail::Lanes<4, Real> aal1o_z = detail::Lanes<4, Real>{zdot[3], t622, zdot[3], t622} +
-      detail::Lanes<4, Real>{zdot[6], -zdot[9], zdot[12], t713};
+      detail::Lanes<4, Real>{zdot[6], -zdot[9], zdot[12], t714};
   const detail::Lanes<4, Real> aal2p_x = c1s * aal1o_x + s1s * aal1o_y;
-  const detail::Lanes<4, Real> aal2p_y = c1s_3 * aal1o_y - s1s_2 * aal1o_x;
+  const detail::Lanes<4, Real> aal2p_y = c1s_2 * aal1o_y - s1s_3 * aal1o_x;
   const Real aL1w00 = w2pp_x[0] * w2pp_x[0];
   const detail::Lanes<4, Real> aL1w11 = w2pp_y * w2pp_y;
   const detail::Lanes<4, Real> aL1w12 = w1_z * w2pp_y;
   const detail::Lanes<4, Real> aL1U1_z = aal2p_x + aL1w12;
-  const detail::Lanes<4, Real> aKx2 = S2_xz * w2pp_x + (S2_xx * w2pp_y + S2_xy * w1_z);
-  const detail::Lanes<4, Real> aKy2 = S2_yy * w1_z - (S2_xy * w2pp_y + S2_yz * w2pp_x);
+  const Real aL1U2_z = aL1w00 + aL1w11[0];
+  const Real t782 = Real(0.19) * aL1U2_z;
+  const Real aa2o_z = aa1o_x[0] + t782;
+  const detail::Lanes<4, Real> aKx2 = S2_xy * w1_z + (S2_xx * w2pp_y - S2_xz * w2pp_x);
+  const detail::Lanes<4, Real> aKy2 = S2_yy * w1_z + (S2_xy * w2pp_y - S2_yz * w2pp_x);
   const detail::Lanes<4, Real> g11 = {state.z[7], state.z[10], state.z[13], state.z[16]};
   const detail::Lanes<4, Real> z2_2 = detail::Lanes<4, Real>{Real(2.0), Real(2.0), Real(2.0), Real(-2.0)} *
       g11;
@@ -1925,143 +1883,135 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const detail::Lanes<4, Real> zw_2 = g12 * (w2pp_x + w2_z);
   const detail::Lanes<4, Real> aax2 = h2_x * w2pp_y + h2_y * w1_z;
   const detail::Lanes<4, Real> adf2_z = z2_2 * aax2;
-  const detail::Lanes<4, Real> g14 = {zdot[7], zdot[10], zdot[13], zdot[16]};
-  const detail::Lanes<4, Real> t893 = S2_xz * g14;
-  const detail::Lanes<4, Real> t897 = S2_yz * zz_2;
-  const detail::Lanes<4, Real> t901 = aKy2 * z2_2;
-  const detail::Lanes<4, Real> adn2_z = J2 * g14;
+  const detail::Lanes<4, Real> g15 = {zdot[7], zdot[10], zdot[13], zdot[16]};
+  const detail::Lanes<4, Real> t897 = S2_xz * g15;
+  const detail::Lanes<4, Real> t901 = S2_yz * zz_2;
+  const detail::Lanes<4, Real> t905 = aKy2 * z2_2;
+  const detail::Lanes<4, Real> adn2_z = J2 * g15;
   const detail::Lanes<4, Real> aal2o_x = aal2p_y + w1_z * g12;
   const detail::Lanes<4, Real> aal2o_y = aal1o_z + w2pp_y * g12;
-  const detail::Lanes<4, Real> aal2o_z = aal2p_x + g14;
+  const detail::Lanes<4, Real> aal2o_z = aal2p_x + g15;
   const detail::Lanes<4, Real> aW2w11 = w1_z * w1_z;
   const detail::Lanes<4, Real> aW2w22 = w2_z * w2_z;
-  const detail::Lanes<4, Real> aL1U2_z = detail::Lanes<4, Real>{aL1w00, aW2w22[1], aW2w22[2], aW2w22[3]} +
-      aL1w11;
-  const Real t954 = Real(0.19) * aL1U2_z[0];
-  const Real aa2o_z = aa1o_x[0] - t954;
   const detail::Lanes<4, Real> aW2U0_x = aW2w11 + aW2w22;
   const detail::Lanes<4, Real> aW2U0_y = aL1w12 + aal2o_z;
   const detail::Lanes<4, Real> aW2U1_x = aL1w12 - aal2o_z;
   const Real aW2U1_y = aL1w11[0] + aW2w22[0];
-  const detail::Lanes<4, Real> t977 = r3_x * aW2U1_x;
-  const detail::Lanes<4, Real> aKx3 = S3b_xz * w2_z - (S3b_xx * w2pp_y + S3b_xy * w1_z);
+  const detail::Lanes<4, Real> t975 = r3_x * aW2U1_x;
+  const Real aa3o_y = r3_y[0] * aW2U1_y - (aa2o_z - t975[0]);
+  const detail::Lanes<4, Real> aKx3 = S3b_xx * w2pp_y + (S3b_xy * w1_z - S3b_xz * w2_z);
   const detail::Lanes<4, Real> aKy3 = S3b_yy * w1_z + (S3b_xy * w2pp_y - S3b_yz * w2_z);
-  const detail::Lanes<4, Real> g15 = {state.z[8], state.z[11], state.z[14], state.z[17]};
+  const detail::Lanes<4, Real> g16 = {state.z[8], state.z[11], state.z[14], state.z[17]};
   const detail::Lanes<4, Real> z2_3 = detail::Lanes<4, Real>{Real(2.0), Real(2.0), Real(2.0), Real(-2.0)} *
-      g15;
+      g16;
   const Real t1050 = -state.z[11];
   const detail::Lanes<4, Real> zz_3 = detail::Lanes<4, Real>{state.z[8], t1050, state.z[14], state.z[17]} *
-      g15;
+      g16;
   const Real t1055 = -state.z[17];
-  const detail::Lanes<4, Real> g16 = {state.z[8], t1050, state.z[14], t1055};
-  const detail::Lanes<4, Real> zw_3 = g16 * (g16 + (w2_z + w2_z));
+  const detail::Lanes<4, Real> g17 = {state.z[8], t1050, state.z[14], t1055};
+  const detail::Lanes<4, Real> zw_3 = g17 * (w2_z + (w2_z + g17));
   const detail::Lanes<4, Real> aax3 = h3b_x * w2pp_y + h3b_y * w1_z;
-  const detail::Lanes<4, Real> g17 = {zdot[8], zdot[11], zdot[14], zdot[17]};
-  const detail::Lanes<4, Real> adf3_x = h3b_y * g17 - h3b_x * zw_3;
-  const detail::Lanes<4, Real> adf3_y = h3b_x * g17 + h3b_y * zw_3;
+  const detail::Lanes<4, Real> g18 = {zdot[8], zdot[11], zdot[14], zdot[17]};
+  const detail::Lanes<4, Real> adf3_x = h3b_y * g18 - h3b_x * zw_3;
+  const detail::Lanes<4, Real> adf3_y = h3b_x * g18 + h3b_y * zw_3;
   const detail::Lanes<4, Real> adf3_z = z2_3 * aax3;
-  const detail::Lanes<4, Real> t1112 = r3_y * detail::Lanes<4, Real>{aW2U1_y, adf3_z[1], adf3_z[2],
-      adf3_z[3]};
-  const Real aa3o_y = t1112[0] + (aa2o_z + t977[0]);
-  const detail::Lanes<4, Real> t1117 = S3b_xz * g17;
-  const detail::Lanes<4, Real> t1121 = S3b_yz * zz_3;
-  const detail::Lanes<4, Real> t1125 = aKy3 * z2_3;
+  const detail::Lanes<4, Real> t1112 = S3b_xz * g18;
+  const detail::Lanes<4, Real> t1116 = S3b_yz * zz_3;
+  const detail::Lanes<4, Real> t1120 = aKy3 * z2_3;
   const detail::Lanes<4, Real> adn3_z = detail::Lanes<4, Real>{Real(0.0018349999999999998),
-      Real(0.0018349999999999998), Real(0.0023000000000000004), Real(0.0023000000000000004)} * g17;
-  const Real aa4o_y = afallW_y + t568;
+      Real(0.0018349999999999998), Real(0.0023000000000000004), Real(0.0023000000000000004)} * g18;
+  const Real aa4o_y = afallW_y - t568;
   const Real aa4o_z = afallW_z + t570;
   const detail::Lanes<4, Real> aa2o_y = detail::Lanes<4, Real>{Real(0.19), Real(0.19), Real(-0.19),
-      Real(-0.19)} * aL1U1_z + (c1s * detail::Lanes<4, Real>{aa1o_z, aa4o_z, aa1o_z, aa4o_z} + s1s *
+      Real(-0.19)} * aL1U1_z + (c1s * detail::Lanes<4, Real>{aa1o_z, aa4o_z, aa1o_z, aa4o_z} - s1s *
       detail::Lanes<4, Real>{aa1o_y, aa4o_y, aa1o_y, aa4o_y});
-  const detail::Lanes<4, Real> aa3o_x = r3_y * aW2U0_y - (aa2o_y - r3_x * aW2U0_x);
-  const Real aa5o_z = t954 - aa1o_x[1];
-  const Real aa6o_y = r3_y[1] * aL1U2_z[1] - (aa5o_z - t977[1]);
-  const detail::Lanes<2, Real> aa8o_z = aa1o_x + t954;
+  const detail::Lanes<4, Real> aa3o_x = r3_x * aW2U0_x - (aa2o_y - r3_y * aW2U0_y);
+  const Real aa5o_z = t782 + aa1o_x[1];
+  const Real aW5U1_y = aL1w11[1] + aW2w22[1];
+  const Real aa6o_y = r3_y[1] * aW5U1_y - (aa5o_z - t975[1]);
+  const detail::Lanes<2, Real> aa8o_z = aa1o_x - t782;
+  const Real aW8U1_y = aL1w11[2] + aW2w22[2];
+  const Real aW11U1_y = aL1w11[3] + aW2w22[3];
   const detail::Lanes<2, Real> aa9o_y = detail::Lanes<2, Real>{r3_y[2], r3_y[3]} * detail::Lanes<2,
-      Real>{aL1U2_z[2], aL1U2_z[3]} + (aa8o_z + detail::Lanes<2, Real>{t977[2], t977[3]});
-  const detail::Lanes<4, Real> af3c_x = adf3_x + (h2_y * g14 - h2_x * zw_2);
+      Real>{aW8U1_y, aW11U1_y} - (aa8o_z - detail::Lanes<2, Real>{t975[2], t975[3]});
+  const detail::Lanes<4, Real> af3c_x = adf3_x + (h2_y * g15 - h2_x * zw_2);
   const detail::Lanes<4, Real> af3c_z = adf2_z + adf3_z;
   const detail::Lanes<4, Real> an3c_z = r3_y * adf3_x - (r3_x * adf3_y - (adn2_z + adn3_z));
   const detail::Lanes<4, Real> an2c_x = an3c_z - detail::Lanes<4, Real>{Real(0.19), Real(0.19), Real(-0.19),
       Real(-0.19)} * af3c_x;
-  const detail::Lanes<4, Real> t1262 = Real(0.19) * af3c_z;
-  const detail::Lanes<2, Real> an8c_y = detail::Lanes<2, Real>{t1262[2], t1262[3]} + (detail::Lanes<2,
-      Real>{t1112[2], t1112[3]} + (detail::Lanes<2, Real>{t901[2], t901[3]} - (detail::Lanes<2, Real>{t897[2],
-      t897[3]} + (detail::Lanes<2, Real>{t893[2], t893[3]} - (detail::Lanes<2, Real>{t1125[2], t1125[3]} -
-      (detail::Lanes<2, Real>{t1117[2], t1117[3]} + detail::Lanes<2, Real>{t1121[2], t1121[3]}))))));
-  const Real an5c_y = t1262[1] - (t1112[1] + (t901[1] + (t893[1] + (t1125[1] + (t1117[1] - t1121[1])) -
-      t897[1])));
-  const Real an2c_y = t1262[0] - (r3_y[0] * adf3_z[0] + (t901[0] - (t897[0] + (t893[0] - (t1125[0] - (t1117[0]
-      + t1121[0]))))));
-  const detail::Lanes<4, Real> c1s_2 = {c1, c4, c7, t319};
-  const detail::Lanes<4, Real> t1288 = c1s_2 * af3c_z;
-  const detail::Lanes<4, Real> t1292 = s1s * af3c_x;
-  const detail::Lanes<4, Real> af1_y = detail::Lanes<4, Real>{s1, t291, s7, s10} * af3c_z - (c1s_3 * af3c_x +
+  const detail::Lanes<4, Real> t1261 = Real(0.19) * af3c_z;
+  const detail::Lanes<2, Real> an8c_y = detail::Lanes<2, Real>{t1120[2], t1120[3]} + (detail::Lanes<2,
+      Real>{r3_y[2] * adf3_z[2], r3_y[3] * adf3_z[3]} - (detail::Lanes<2, Real>{t1112[2], t1112[3]} +
+      detail::Lanes<2, Real>{t1116[2], t1116[3]} + (detail::Lanes<2, Real>{t897[2], t897[3]} +
+      detail::Lanes<2, Real>{t901[2], t901[3]}))) + (detail::Lanes<2, Real>{t905[2], t905[3]} +
+      detail::Lanes<2, Real>{t1261[2], t1261[3]});
+  const Real an5c_y = t1120[1] + (r3_y[1] * adf3_z[1] + (t1112[1] - t1116[1] + (t897[1] - t901[1]))) +
+      (t905[1] - t1261[1]);
+  const Real an2c_y = t1120[0] + (r3_y[0] * adf3_z[0] - (t1112[0] + t1116[0] + (t897[0] + t901[0]))) +
+      (t905[0] - t1261[0]);
+  const detail::Lanes<4, Real> g13 = {zdot[6], zdot[9], zdot[12], zdot[15]};
+  const detail::Lanes<4, Real> af1_y = c1s_2 * af3c_x - (detail::Lanes<4, Real>{s1, t291, s7, s10} * af3c_z -
       (h1b_x * g13 - h1b_y * zw_1));
-  const detail::Lanes<4, Real> af1_z = adf3_y + (h2_y * zw_2 + (adf1_z + h2_x * g14));
-  const detail::Lanes<4, Real> t1328 = c1s * an2c_x;
+  const detail::Lanes<4, Real> af1_z = adf1_z + (adf3_y + (h2_x * g15 + h2_y * zw_2));
+  const detail::Lanes<4, Real> an1_z = aKx2 * z2_2 + (adn1_z + (aKx3 * z2_3 - (r3_x * adf3_z - (S3b_yz *
+      detail::Lanes<4, Real>{zdot[8], -zdot[11], zdot[14], zdot[17]} - S3b_xz * zz_3 + (S2_yz *
+      detail::Lanes<4, Real>{zdot[7], -zdot[10], zdot[13], zdot[16]} - S2_xz * zz_2)))));
+  const Real af0_x = h1c_y * zdot[5] + af1_z[3] + (af1_z[2] + af1_z[1]) - (state.z[3] * auh0 - (af1_z[0] -
+      (h1c_z * zdot[4] - h1c_x * auw0)));
+  const detail::Lanes<4, Real> t1387 = s1s_3 * af3c_x + (detail::Lanes<4, Real>{c1, t317, c7, c10} * af3c_z +
+      (h1b_y * g13 + h1b_x * zw_1));
+  const Real af0_y = state.z[4] * auh0 - (h1c_y * auw0 + (h1c_z * zdot[3] - h1c_x * zdot[5])) + (t1387[0] -
+      t1387[1] + (t1387[2] - t1387[3]));
+  const Real af0_z = state.z[5] * auh0 - (h1c_z * auw0 - (h1c_y * zdot[3] - h1c_x * zdot[4])) - (af1_y[2] -
+      af1_y[3] + (af1_y[0] - af1_y[1]));
+  const Real an0_x = Jx0 * zdot[3] + (S1c_xy * zdot[4] + (S1c_xz * zdot[5] + an1_z[0]) + (Real(0.05) *
+      (af1_y[3] + af1_y[2] + (af1_y[1] + af1_y[0])) + (h1c_y * afallW_z - h1c_z * afallW_y - an1_z[3] +
+      (an1_z[2] + an1_z[1])))) - (state.z[4] * aSu0_z + state.z[5] * aSu0_y);
   const detail::Lanes<4, Real> an2c_ys = {an2c_y, an5c_y, an8c_y[0], an8c_y[1]};
-  const detail::Lanes<4, Real> t1332 = detail::Lanes<4, Real>{s1, s4, s7, t292} * an2c_ys;
-  const detail::Lanes<4, Real> t1336 = c1s_2 * an2c_ys;
-  const detail::Lanes<4, Real> t1340 = s1s * an2c_x;
-  const detail::Lanes<4, Real> an1_z = r3_x * adf3_z + (aKx2 * z2_2 + (S2_xz * zz_2 - (S2_yz *
-      detail::Lanes<4, Real>{zdot[7], -zdot[10], zdot[13], zdot[16]} - (aKx3 * z2_3 + (S3b_xz * zz_3 - (adn1_z
-      + S3b_yz * detail::Lanes<4, Real>{zdot[8], -zdot[11], zdot[14], zdot[17]}))))));
-  const Real af0_x = af1_z[0] + (af1_z[1] + (af1_z[2] + (af1_z[3] + (h1c_x * auw0 - (h1c_y * zdot[5] -
-      (state.z[3] * auh0 + h1c_z * zdot[4]))))));
-  const Real af0_y = t1292[0] + (t1288[0] + (t673[0] + (t669[0] + (t1292[1] + (t1288[1] - (t673[1] + (t669[1]
-      - (t1292[2] + (t1288[2] + (t673[2] + (t669[2] + (t1292[3] + (t1288[3] - (t673[3] + (t669[3] - (h1c_y *
-      auw0 + (h1c_x * zdot[5] - (state.z[4] * auh0 - h1c_z * zdot[3]))))))))))))))))));
-  const Real af0_z = af1_y[0] + (af1_y[2] + (h1c_z * auw0 - (h1c_x * zdot[4] + (state.z[5] * auh0 + h1c_y *
-      zdot[3])) - af1_y[3]) - af1_y[1]);
-  const Real an0_x = Real(0.05) * (af1_y[0] + (af1_y[1] + (af1_y[3] + af1_y[2]))) + (an1_z[2] + (an1_z[1] +
-      (an1_z[0] + (h1c_z * afallW_y + (h1c_y * afallW_z + (S1c_xz * zdot[5] - (S1c_xy * zdot[4] + (Jx0 *
-      zdot[3] - (state.z[4] * aSu0_z - state.z[5] * aSu0_y)))))))) - an1_z[3]);
-  const Real an0_y = t1332[0] + (t1328[0] + (t697[0] + (t693[0] - (t689[0] - (t1332[1] + (t1328[1] + (t697[1]
-      + (t693[1] - (t689[1] + (t1332[2] - (t1328[2] + (t697[2] + (t693[2] + (t689[2] - (t1332[3] - (t1328[3] +
-      (t697[3] + (t693[3] - (t689[3] - (h1c_z * afallW_x - (h1c_x * afallW_z + (S1c_yz * zdot[5] + (Jy0 *
-      zdot[4] - (S1c_xy * zdot[3] + (state.z[3] * aSu0_z - state.z[5] * aSu0_x)))))))))))))))))))))))));
-  const Real an0_z = Real(0.05) * (af1_z[0] - (af1_z[1] + (af1_z[3] - af1_z[2]))) - (t1340[3] + (t1336[3] -
-      (t705[3] + (t701[3] - (t1340[2] + (t1336[2] + (t705[2] - (t701[2] - (t1340[1] - (t1336[1] + (t705[1] +
-      (t701[1] - (t1340[0] - (t1336[0] - (t709[0] - (t705[0] + (t701[0] + (h1c_y * afallW_x + (h1c_x *
-      afallW_y + (S0b_zz * zdot[5] + (S1c_yz * zdot[4] + (S1c_xz * zdot[3] + (state.z[3] * aSu0_y - state.z[4]
-      * aSu0_x)))))))))))) - t709[1])))) - t709[2])))) - t709[3])));
-  const detail::Lanes<4, Real> aQ1_0 = an1_z + (h1b_y * detail::Lanes<4, Real>{aa1o_y, -aa4o_y, aa1o_y,
-      aa4o_y} + (h1b_x * detail::Lanes<4, Real>{aa1o_z, -aa4o_z, aa1o_z, aa4o_z} + (S1b_yz * detail::Lanes<4,
-      Real>{zdot[5], zdot[5], zdot[5], -zdot[5]} + (S1b_xz * detail::Lanes<4, Real>{zdot[4], zdot[4], t627,
-      t627} - (S1b_zz * detail::Lanes<4, Real>{zdot[3], zdot[3], zdot[3], t622} - (detail::Lanes<4,
-      Real>{state.z[4], state.z[4], state.z[4], t576} * aKy1 + detail::Lanes<4, Real>{state.z[5], state.z[5],
-      t581, t581} * aKx1))))));
-  const detail::Lanes<4, Real> aQ2_0 = an3c_z + (w2pp_y * aKy2 + (w1_z * aKx2 + (S2_yz * aal1o_z - (S2_xz *
-      aal2p_y - (J2 * aal2p_x + (h2_x * detail::Lanes<4, Real>{aa2o_z, -aa5o_z, aa8o_z[0], aa8o_z[1]} - h2_y *
-      aa2o_y))))));
-  const detail::Lanes<4, Real> aQ3_0 = adn3_z + (w2pp_y * aKy3 + (w1_z * aKx3 + (h3b_y * aa3o_x + (h3b_x *
-      detail::Lanes<4, Real>{aa3o_y, aa6o_y, aa9o_y[0], aa9o_y[1]} + (S3b_yz * aal2o_y + (detail::Lanes<4,
-      Real>{Real(0.0018349999999999998), Real(0.0018349999999999998), Real(0.0023000000000000004),
-      Real(0.0023000000000000004)} * aal2o_z - S3b_xz * aal2o_x))))));
-  const Real tauf0 = zdot[0] * model.front_abduction1_m - (q0r0_z * af0_z + (q0r0_x * af0_x + q0r0_y *
-      af0_y));
-  const Real tauf1 = zdot[1] * model.front_abduction1_m - (q0r1_z * af0_z - (q0r1_x * af0_x + q0r1_y *
-      af0_y));
-  const Real tauf2 = fall0_z * model.front_abduction1_m + (q0r2_z * af0_z + (q0r2_x * af0_x - q0r2_y *
-      af0_y));
-  tau[0] = tauf0;
+  const detail::Lanes<4, Real> g14 = {zdot[6], zdot[9], t689, zdot[15]};
+  const detail::Lanes<4, Real> t1432 = aKy1 * z2_1 - (detail::Lanes<4, Real>{s1, s4, s7, t292} * an2c_ys -
+      (c1s * an2c_x - (S1b_xz * g14 + S1b_yz * zz_1)));
+  const Real an0_y = t1432[0] + t1432[1] + (t1432[2] + t1432[3]) + (state.z[3] * aSu0_z + (Jy0 * zdot[4] +
+      (S1c_yz * zdot[5] + (state.z[5] * aSu0_x + (S1c_xy * zdot[3] - (h1c_x * afallW_z - h1c_z *
+      afallW_x))))));
+  const detail::Lanes<4, Real> t1462 = aKx1 * z2_1 + (s1s_2 * an2c_x + (detail::Lanes<4, Real>{c1, c4, t318,
+      t319} * an2c_ys + (S1b_yz * g14 - S1b_xz * zz_1)));
+  const Real an0_z = S0b_zz * zdot[5] + t1462[0] - (t1462[2] - t1462[1]) + (state.z[3] * aSu0_y + (t1462[3] +
+      (S1c_yz * zdot[4] - (state.z[4] * aSu0_x + (Real(0.05) * (af1_z[2] - af1_z[3] + (af1_z[0] - af1_z[1])) -
+      (S1c_xz * zdot[3] + (h1c_x * afallW_y - h1c_y * afallW_x)))))));
+  const detail::Lanes<4, Real> aQ1_0 = detail::Lanes<4, Real>{state.z[5], state.z[5], t581, t581} * aKx1 +
+      (detail::Lanes<4, Real>{state.z[4], state.z[4], state.z[4], t576} * aKy1 + (S1b_xz * detail::Lanes<4,
+      Real>{zdot[4], zdot[4], t627, t627} - S1b_yz * detail::Lanes<4, Real>{zdot[5], zdot[5], zdot[5],
+      -zdot[5]} - (an1_z + (S1b_zz * detail::Lanes<4, Real>{zdot[3], zdot[3], zdot[3], t622} - (h1b_x *
+      detail::Lanes<4, Real>{aa1o_z, -aa4o_z, aa1o_z, aa4o_z} - h1b_y * detail::Lanes<4, Real>{aa1o_y,
+      -aa4o_y, aa1o_y, aa4o_y})))));
+  const detail::Lanes<4, Real> aQ2_0 = w1_z * aKx2 - (S2_yz * aal1o_z + (J2 * aal2p_x - S2_xz * aal2p_y) -
+      (h2_x * detail::Lanes<4, Real>{aa2o_z, aa5o_z, aa8o_z[0], aa8o_z[1]} + h2_y * aa2o_y)) - (w2pp_y * aKy2
+      + an3c_z);
+  const detail::Lanes<4, Real> aQ3_0 = h3b_x * detail::Lanes<4, Real>{aa3o_y, aa6o_y, aa9o_y[0], aa9o_y[1]} +
+      h3b_y * aa3o_x + (w2pp_y * aKy3 - (w1_z * aKx3 - (detail::Lanes<4, Real>{Real(0.0018349999999999998),
+      Real(0.0018349999999999998), Real(0.0023000000000000004), Real(0.0023000000000000004)} * aal2o_z +
+      adn3_z - (S3b_xz * aal2o_x - S3b_yz * aal2o_y))));
+  const Real tauf0 = q0r0_x * af0_x - zdot[0] * model.front_abduction1_m + (q0r0_y * af0_y + q0r0_z * af0_z);
+  const Real tauf1 = q0r1_x * af0_x + zdot[1] * model.front_abduction1_m + (q0r1_y * af0_y - q0r1_z * af0_z);
+  const Real tauf2 = q0r2_x * af0_x + fall0_z * model.front_abduction1_m - (q0r2_y * af0_y - q0r2_z * af0_z);
+  tau[0] = -tauf0;
   tau[1] = tauf1;
   tau[2] = tauf2;
-  tau[3] = -an0_x;
+  tau[3] = an0_x;
   tau[4] = an0_y;
-  tau[5] = -an0_z;
+  tau[5] = an0_z;
   tau[6] = -aQ1_0[0];
-  tau[7] = aQ2_0[0];
+  tau[7] = -aQ2_0[0];
   tau[8] = aQ3_0[0];
   tau[9] = -aQ1_0[1];
-  tau[10] = aQ2_0[1];
+  tau[10] = -aQ2_0[1];
   tau[11] = aQ3_0[1];
   tau[12] = -aQ1_0[2];
-  tau[13] = aQ2_0[2];
+  tau[13] = -aQ2_0[2];
   tau[14] = aQ3_0[2];
   tau[15] = aQ1_0[3];
-  tau[16] = aQ2_0[3];
+  tau[16] = -aQ2_0[3];
   tau[17] = aQ3_0[3];
 }
 
@@ -2086,7 +2036,7 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real q001 = q0d1 * state.y[3];
   const Real q002 = q0d2 * state.y[3];
   const Real q003 = q0d3 * state.y[3];
-  const Real q0r0_x = q022 + q033 - Real(1.0);
+  const Real q0r0_x = q033 + (q022 - Real(1.0));
   const Real q0r0_y = q012 - q003;
   const Real q0r0_z = q013 + q002;
   const Real q0r1_x = q012 + q003;
@@ -2131,15 +2081,15 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const detail::Lanes<4, Real> J2 = detail::Lanes<4, Real>{Real(0.010801999999999999),
       Real(0.010801999999999999), Real(0.011708), Real(0.011708)} + t37s * detail::Lanes<4,
       Real>{Real(0.00567), Real(0.00567), Real(0.00672), Real(0.00672)};
-  const detail::Lanes<4, Real> S2_xx = Real(2.0) * (r3_x * h3b_x) + (s3 * S3b_t - (detail::Lanes<4,
+  const detail::Lanes<4, Real> S2_xx = h3b_x * (Real(2.0) * r3_x) + (s3 * S3b_t - (detail::Lanes<4,
       Real>{Real(0.010542), Real(0.010542), Real(0.011448), Real(0.011448)} - s2s * S2b_t));
   const detail::Lanes<4, Real> S2_xz = S3b_xz - S2b_xz;
   const detail::Lanes<4, Real> S2_yz = S3b_yz + S2b_yz;
   const detail::Lanes<4, Real> S2c_xz = detail::Lanes<4, Real>{Real(0.0147372), Real(0.0147372),
       Real(-0.014855), Real(-0.014855)} - S2_yz;
   const detail::Lanes<4, Real> S2c_yy = Real(0.00025) - S2_xx;
-  const detail::Lanes<4, Real> S2c_yz = detail::Lanes<4, Real>{Real(0.19), Real(0.19), Real(-0.19),
-      Real(-0.19)} * h2_x + (S2b_xy - (r3_y * h3b_x + (S3b_xy - r3_x * h3b_y)));
+  const detail::Lanes<4, Real> S2c_yz = r3_x * h3b_y - r3_y * h3b_x + (detail::Lanes<4, Real>{Real(0.19),
+      Real(0.19), Real(-0.19), Real(-0.19)} * h2_x - (S3b_xy - S2b_xy));
   const detail::Lanes<4, Real> S1b_zz = detail::Lanes<4, Real>{Real(0.00539936), Real(0.00539936),
       Real(0.0054378000000000004), Real(0.0054378000000000004)} + S2c_yy;
   const detail::Lanes<4, Real> S1b_d = detail::Lanes<4, Real>{Real(0.00539936), Real(0.00539936),
@@ -2148,112 +2098,104 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real t276 = -s10;
   const detail::Lanes<4, Real> c1s = {c1, c4, c7, c10};
   const detail::Lanes<4, Real> s1s_2 = {s1, t275, s7, t276};
-  const detail::Lanes<4, Real> S1b_t = Real(2.0) * (c1s * S2_xz) + s1s_2 * S1b_d;
-  const detail::Lanes<4, Real> s1s = {s1, s4, s7, s10};
-  const detail::Lanes<4, Real> S1b_xx = detail::Lanes<4, Real>{Real(0.00539936), Real(-0.00539936),
-      Real(0.0054378000000000004), Real(-0.0054378000000000004)} - s1s * S1b_t;
-  const detail::Lanes<4, Real> t295 = c1s * S1b_t;
-  const Real t299 = -c4;
-  const Real t300 = -c7;
-  const Real t301 = -c10;
-  const Real t306 = -s7;
-  const detail::Lanes<4, Real> S1b_xz = detail::Lanes<4, Real>{c1, t299, t300, t301} * S2c_xz -
-      detail::Lanes<4, Real>{s1, s4, t306, s10} * S2c_yz;
-  const detail::Lanes<4, Real> S1b_yz = detail::Lanes<4, Real>{c1, c4, t300, t301} * S2c_yz + detail::Lanes<4,
-      Real>{s1, t275, t306, s10} * S2c_xz;
+  const detail::Lanes<4, Real> S1b_t = S2_xz * (Real(2.0) * c1s) + s1s_2 * S1b_d;
+  const detail::Lanes<4, Real> S1b_xx = detail::Lanes<4, Real>{Real(0.00539936), Real(0.00539936),
+      Real(0.0054378000000000004), Real(0.0054378000000000004)} - s1s_2 * S1b_t;
+  const Real t297 = -c4;
+  const Real t299 = -c10;
+  const detail::Lanes<4, Real> S1b_xz = detail::Lanes<4, Real>{c1, t297, -c7, t299} * S2c_xz -
+      detail::Lanes<4, Real>{s1, s4, -s7, s10} * S2c_yz;
+  const detail::Lanes<4, Real> S1b_yz = c1s * S2c_yz + s1s_2 * S2c_xz;
   const detail::Lanes<4, Real> h1b_x = c1s * detail::Lanes<4, Real>{Real(0.07788), Real(0.07788),
       Real(0.0785), Real(0.0785)} - s1s_2 * h2_x;
+  const detail::Lanes<4, Real> s1s = {s1, s4, s7, s10};
+  const detail::Lanes<4, Real> c1s_2 = {c1, t297, c7, t299};
   const detail::Lanes<4, Real> h1b_y = s1s * detail::Lanes<4, Real>{Real(0.07788), Real(0.07788),
-      Real(0.0785), Real(0.0785)} + detail::Lanes<4, Real>{c1, t299, c7, t301} * h2_x;
-  const Real t353 = h2_y[1] + h2_y[0];
-  const Real t354 = h2_y[3] + h2_y[2];
-  const Real h1c_x = t353 + t354 + Real(0.0038000000000000035);
-  const Real h1c_y = h1b_x[0] - (h1b_x[1] + (h1b_x[3] - h1b_x[2]));
-  const Real h1c_z = h1b_y[0] - (h1b_y[1] + (h1b_y[3] - h1b_y[2]));
-  const Real S1c_xx = (t353 - t354) * Real(0.38) - (S2_xx[0] + (J2[0] + (S2_xx[1] + (J2[1] + (S2_xx[2] +
-      (J2[2] + (J2[3] + S2_xx[3]))))))) - Real(0.22637000000000002);
-  const Real S1c_xy = (h2_y[0] - (h2_y[1] + (h2_y[3] - h2_y[2]))) * Real(0.05) - (S1b_xz[3] - (S1b_xz[2] -
-      (S1b_xz[1] + S1b_xz[0])));
-  const Real S1c_xz = S1b_yz[0] + (S1b_yz[1] - (S1b_yz[3] + S1b_yz[2]));
-  const Real S1c_yy = (h1b_x[0] + (h1b_x[1] + (h1b_x[3] + h1b_x[2]))) * Real(0.1) + (S1b_xx[2] + (S1b_xx[0] -
-      S1b_xx[1]) - S1b_xx[3]) + Real(0.02215);
-  const Real S1c_yz = Real(0.05) * (h1b_y[0] + (h1b_y[1] + (h1b_y[3] + h1b_y[2]))) - (t295[3] - (S2_xz[3] +
-      (t295[2] - (S2_xz[2] + (t295[1] - (S2_xz[1] - (S2_xz[0] - t295[0])))))));
-  const Real S1c_zz = S1b_xx[0] - (S1b_zz[0] + (S1b_xx[1] + (S1b_zz[1] - (S1b_xx[2] - (S1b_zz[2] + (S1b_zz[3]
-      + S1b_xx[3])))))) - Real(0.0024000000000000002);
-  const Real S0b_zz = S1c_xx - S1c_yy;
-  const Real Jx0 = S1c_yy - S1c_zz;
+      Real(0.0785), Real(0.0785)} + c1s_2 * h2_x;
+  const Real t351 = h2_y[1] + h2_y[0];
+  const Real t352 = h2_y[3] + h2_y[2];
+  const Real h1c_x = t352 + (t351 + Real(0.0038000000000000035));
+  const Real h1c_y = h1b_x[3] - h1b_x[2] + (h1b_x[1] - h1b_x[0]);
+  const Real h1c_z = h1b_y[3] - h1b_y[2] + (h1b_y[1] - h1b_y[0]);
+  const detail::Lanes<4, Real> t365 = J2 + S2_xx;
+  const Real S1c_xx = t365[2] + t365[3] - ((t351 - t352) * Real(0.38) - Real(0.22637000000000002) - (t365[0] +
+      t365[1]));
+  const Real S1c_xy = S1b_xz[2] - S1b_xz[1] - (S1b_xz[0] + (S1b_xz[3] + (h2_y[3] - h2_y[2] + (h2_y[1] -
+      h2_y[0])) * Real(0.05)));
+  const Real S1c_xz = S1b_yz[3] + S1b_yz[2] + (S1b_yz[1] + S1b_yz[0]);
+  const Real S1c_yy = S1b_xx[2] + S1b_xx[1] + (S1b_xx[0] + (S1b_xx[3] + ((h1b_x[3] + h1b_x[2] + (h1b_x[1] +
+      h1b_x[0])) * Real(0.1) + Real(0.02215))));
+  const detail::Lanes<4, Real> t402 = S2_xz - c1s * S1b_t;
+  const Real S1c_yz = t402[1] - t402[2] + (t402[3] + (Real(0.05) * (h1b_y[3] + h1b_y[2] + (h1b_y[1] +
+      h1b_y[0])) - t402[0]));
+  const detail::Lanes<4, Real> t410 = S1b_zz - S1b_xx;
+  const Real S1c_zz = t410[1] + t410[2] + (t410[3] + (Real(0.0024000000000000002) + t410[0]));
+  const Real S0b_zz = S1c_xx + S1c_yy;
+  const Real Jx0 = S1c_yy + S1c_zz;
   const Real Jy0 = S1c_xx + S1c_zz;
-  const detail::Lanes<4, Real> g7 = {state.z[6], state.z[9], state.z[12], state.z[15]};
-  const detail::Lanes<4, Real> w1_z = state.z[3] + g7;
+  const detail::Lanes<4, Real> g8 = {state.z[6], state.z[9], state.z[12], state.z[15]};
+  const detail::Lanes<4, Real> w1_z = state.z[3] + g8;
   const detail::Lanes<4, Real> w2pp_x = c1s * state.z[4] + s1s * state.z[5];
   const detail::Lanes<4, Real> w2pp_y = s1s * state.z[4] - c1s * state.z[5];
-  const detail::Lanes<4, Real> g8 = {state.z[7], state.z[10], state.z[13], state.z[16]};
-  const detail::Lanes<4, Real> w2_z = w2pp_x + g8;
-  const Real vrel0_x = q0r2_x * state.z[2] - (q0r0_x * state.z[0] - q0r1_x * state.z[1]);
-  const Real vrel0_y = q0r2_y * state.z[2] + (q0r0_y * state.z[0] - q0r1_y * state.z[1]);
+  const detail::Lanes<4, Real> g9 = {state.z[7], state.z[10], state.z[13], state.z[16]};
+  const detail::Lanes<4, Real> w2_z = w2pp_x + g9;
+  const Real vrel0_x = q0r0_x * state.z[0] - (q0r1_x * state.z[1] + q0r2_x * state.z[2]);
+  const Real vrel0_y = q0r1_y * state.z[1] - (q0r0_y * state.z[0] + q0r2_y * state.z[2]);
   const Real vrel0_z = q0r2_z * state.z[2] - (q0r0_z * state.z[0] + q0r1_z * state.z[1]);
   const Real Tph_x = h1c_z * state.z[4] - h1c_y * state.z[5];
-  const Real Tph_y = h1c_z * state.z[3] + h1c_x * state.z[5];
-  const Real Tph_z = h1c_y * state.z[3] + h1c_x * state.z[4];
+  const Real Tph_y = h1c_z * state.z[3] - h1c_x * state.z[5];
+  const Real Tph_z = h1c_y * state.z[3] - h1c_x * state.z[4];
   const Real Tmv_x = state.z[0] * model.c2;
   const Real Tmv_y = state.z[1] * model.c2;
   const Real Tmv_z = state.z[2] * model.c2;
-  const Real t537 = Real(0.05) * state.z[5];
-  const detail::Lanes<2, Real> v1o_x = vrel0_x - detail::Lanes<2, Real>{t537, -t537};
-  const Real t541 = Real(0.05) * state.z[3];
-  const detail::Lanes<2, Real> v1o_z = vrel0_z - detail::Lanes<2, Real>{t541, -t541};
-  const detail::Lanes<4, Real> v1P_x = h1b_y * g7;
-  const detail::Lanes<4, Real> v1P_y = h1b_x * g7;
-  const detail::Lanes<4, Real> v1L_x = S1b_xz * g7;
-  const detail::Lanes<4, Real> v1L_y = S1b_yz * g7;
+  const Real t535 = Real(0.05) * state.z[5];
+  const detail::Lanes<2, Real> v1o_x = vrel0_x + detail::Lanes<2, Real>{t535, -t535};
+  const Real t539 = Real(0.05) * state.z[3];
+  const detail::Lanes<2, Real> v1o_z = detail::Lanes<2, Real>{vrel0_z, -vrel0_z} - t539;
+  const detail::Lanes<4, Real> v1P_x = h1b_y * g8;
+  const detail::Lanes<4, Real> v1P_y = h1b_x * g8;
+  const detail::Lanes<4, Real> v1L_x = S1b_xz * g8;
+  const detail::Lanes<4, Real> v1L_y = S1b_yz * g8;
   const detail::Lanes<4, Real> v1L_z = S1b_zz * detail::Lanes<4, Real>{state.z[6], state.z[9], state.z[12],
       -state.z[15]};
-  const detail::Lanes<4, Real> t566 = g7 * v1L_z;
   const detail::Lanes<4, Real> v2o_y = detail::Lanes<4, Real>{Real(0.19), Real(0.19), Real(-0.19),
-      Real(-0.19)} * w2pp_x + (c1s * detail::Lanes<4, Real>{v1o_z[0], v1o_z[1], v1o_z[0], v1o_z[1]} + s1s *
+      Real(-0.19)} * w2pp_x + (c1s_2 * detail::Lanes<4, Real>{v1o_z[0], v1o_z[1], v1o_z[0], v1o_z[1]} - s1s *
       vrel0_y);
-  const detail::Lanes<4, Real> v2P_y = h2_x * g8;
-  const detail::Lanes<4, Real> v2L_x = S2_xz * g8;
-  const detail::Lanes<4, Real> v2L_y = S2_yz * g8;
-  const detail::Lanes<4, Real> v2L_z = J2 * g8;
-  const detail::Lanes<4, Real> t606 = g8 * v2L_z;
-  const detail::Lanes<4, Real> t610 = w2pp_x * v2L_z;
-  const detail::Lanes<4, Real> t620 = v2o_y * (h2_y * detail::Lanes<4, Real>{state.z[7], state.z[10],
-      -state.z[13], -state.z[16]});
+  const detail::Lanes<4, Real> v2P_y = h2_x * g9;
+  const detail::Lanes<4, Real> v2L_x = S2_xz * g9;
+  const detail::Lanes<4, Real> v2L_y = S2_yz * g9;
+  const Real t600 = -state.z[10];
+  const Real t601 = -state.z[16];
+  const detail::Lanes<4, Real> g10 = {state.z[7], t600, state.z[13], t601};
+  const detail::Lanes<4, Real> v2L_z = J2 * g10;
   const detail::Lanes<4, Real> v3o_x = v2o_y - r3_y * w2_z;
-  const detail::Lanes<4, Real> v3o_y = detail::Lanes<4, Real>{v1o_x[0], v1o_x[1], v1o_x[0], v1o_x[1]} - r3_x *
+  const detail::Lanes<4, Real> v3o_y = detail::Lanes<4, Real>{v1o_x[0], v1o_x[1], v1o_x[0], v1o_x[1]} + r3_x *
       w2_z;
-  const detail::Lanes<4, Real> g9 = {state.z[8], state.z[11], state.z[14], state.z[17]};
-  const detail::Lanes<4, Real> v3L_x = S3b_xz * g9;
-  const detail::Lanes<4, Real> v3L_y = S3b_yz * g9;
-  const detail::Lanes<4, Real> v3L_z = g9 * detail::Lanes<4, Real>{Real(0.0018349999999999998),
-      Real(0.0018349999999999998), Real(0.0023000000000000004), Real(0.0023000000000000004)};
-  const detail::Lanes<4, Real> t658 = g9 * v3L_z;
-  const detail::Lanes<4, Real> t662 = w2_z * v3L_z;
-  const detail::Lanes<4, Real> t672 = v3o_x * (h3b_y * detail::Lanes<4, Real>{state.z[8], state.z[11],
-      -state.z[14], -state.z[17]});
-  const detail::Lanes<4, Real> t680 = v3o_y * (h3b_x * g9);
-  const detail::Lanes<4, Real> t720 = w1_z * (v2L_y + v3L_y);
-  const detail::Lanes<4, Real> t728 = w2pp_y * (v2L_x + v3L_x);
-  const detail::Lanes<2, Real> t734 = v1o_x * (detail::Lanes<2, Real>{v2P_y[0], v2P_y[1]} + detail::Lanes<2,
-      Real>{v2P_y[2], v2P_y[3]});
-  const detail::Lanes<2, Real> t738 = v1o_z * (detail::Lanes<2, Real>{v1P_y[0], v1P_y[1]} + detail::Lanes<2,
+  const detail::Lanes<4, Real> g11 = {state.z[8], state.z[11], state.z[14], state.z[17]};
+  const detail::Lanes<4, Real> v3L_x = S3b_xz * g11;
+  const detail::Lanes<4, Real> v3L_y = S3b_yz * g11;
+  const detail::Lanes<4, Real> v3L_z = g11 * detail::Lanes<4, Real>{Real(0.0018349999999999998),
+      Real(-0.0018349999999999998), Real(0.0023000000000000004), Real(-0.0023000000000000004)};
+  const Real t658 = -state.z[11];
+  const Real t667 = -state.z[17];
+  const detail::Lanes<4, Real> t688 = g8 * v1L_z + (detail::Lanes<4, Real>{state.z[7], t600, state.z[13],
+      state.z[16]} * v2L_z + detail::Lanes<4, Real>{state.z[8], t658, state.z[14], state.z[17]} * v3L_z);
+  const detail::Lanes<4, Real> g12 = {state.z[8], t658, state.z[14], t667};
+  const detail::Lanes<4, Real> t760 = w1_z * (v2L_y + v3L_y) + w2pp_y * (v2L_x + v3L_x) - (v2o_y * (h2_y *
+      g10) - (w2pp_x * v2L_z + w2_z * v3L_z) + (v3o_x * (h3b_y * g12) + v3o_y * (h3b_x * g12)));
+  const detail::Lanes<2, Real> t764 = v1o_x * (detail::Lanes<2, Real>{v2P_y[0], v2P_y[1]} + detail::Lanes<2,
+      Real>{v2P_y[2], v2P_y[3]}) + v1o_z * (detail::Lanes<2, Real>{v1P_y[0], v1P_y[1]} + detail::Lanes<2,
       Real>{v1P_y[2], v1P_y[3]});
-  const Real T12 = state.z[3] * (v1L_z[3] - (v1L_z[2] + (v1L_z[0] + v1L_z[1]))) + ((state.z[3] * (S1c_xz *
-      state.z[5] - (Jx0 * state.z[3] + S1c_xy * state.z[4])) + (state.z[5] * (S0b_zz * state.z[5] + (S1c_xz *
-      state.z[3] + S1c_yz * state.z[4])) + (state.z[4] * (S1c_yz * state.z[5] - (S1c_xy * state.z[3] - Jy0 *
-      state.z[4])) - (t566[0] + (t606[0] + (t658[0] + (t566[1] + (t606[1] + (t658[1] + (t566[2] + (t606[2] +
-      (t658[2] - (t566[3] - (t606[3] + t658[3])))))))))))))) * Real(0.5) + (state.z[4] * (v1L_x[3] - (v1L_x[2]
-      - (v1L_x[0] + v1L_x[1]))) - (state.z[5] * (v1L_y[3] + (v1L_y[2] - (v1L_y[0] + v1L_y[1]))) + (vrel0_y *
-      (v1P_x[3] - (v1P_x[2] + (v1P_x[0] - v1P_x[1]))) + (t720[0] + (t728[0] - (t720[1] + (t728[1] - (t720[2] +
-      (t728[2] - (t720[3] + (t728[3] - (t734[0] - (t738[0] - (t734[1] + (t738[1] + (t680[3] + (t672[3] +
-      (t662[3] + (t620[3] + (t610[3] + (t680[2] + (t672[2] + (t662[2] + (t620[2] + (t610[2] + (t680[1] -
-      (t672[1] - (t662[1] - (t620[1] - (t610[1] + (t680[0] - (t672[0] - (t662[0] - (t620[0] - (t610[0] +
-      (state.z[2] * (Tmv_z - (q0r2_z * Tph_z - (q0r2_x * Tph_x - q0r2_y * Tph_y))) + (state.z[0] * (Tmv_x +
-      (q0r0_z * Tph_z - (q0r0_x * Tph_x + q0r0_y * Tph_y))) + state.z[1] * (Tmv_y + (q0r1_z * Tph_z + (q0r1_x
-      * Tph_x + q0r1_y * Tph_y)))))))))))))))))))))))))))))))))))))))));
-  return -T12;
+  const Real T12 = (state.z[5] * (S0b_zz * state.z[5] - (S1c_xz * state.z[3] + S1c_yz * state.z[4])) +
+      (t688[0] + t688[1] + (t688[2] - t688[3])) + (state.z[4] * (Jy0 * state.z[4] + (S1c_xy * state.z[3] -
+      S1c_yz * state.z[5])) + state.z[3] * (Jx0 * state.z[3] + (S1c_xy * state.z[4] - S1c_xz * state.z[5]))))
+      * Real(0.5) - (state.z[2] * (q0r2_x * Tph_x - Tmv_z - (q0r2_y * Tph_y + q0r2_z * Tph_z)) + (state.z[4] *
+      (v1L_x[0] + v1L_x[1] - (v1L_x[2] - v1L_x[3])) - (t760[2] - t760[3] + (vrel0_y * (v1P_x[0] - v1P_x[1] +
+      (v1P_x[2] - v1P_x[3])) - t764[0]))) + (state.z[5] * (v1L_y[0] + v1L_y[1] + (v1L_y[2] + v1L_y[3])) -
+      (state.z[3] * (v1L_z[0] + v1L_z[1] + (v1L_z[2] - v1L_z[3])) - (t764[1] - (t760[0] - t760[1]))) -
+      (state.z[0] * (q0r0_x * Tph_x + Tmv_x + (q0r0_y * Tph_y - q0r0_z * Tph_z)) - state.z[1] * (q0r1_x *
+      Tph_x - Tmv_y + (q0r1_y * Tph_y + q0r1_z * Tph_z)))));
+  return T12;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -2293,15 +2235,15 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
   const Real h3b_x = c3 * Real(0.0135);
   const Real h2b_x = c2 * Real(0.0441);
   const Real h2_x = h3b_x - h2b_x;
-  const Real h1c_x = Real(0.0441) * (s2 + s5) + (Real(0.0135) * (s5 * t41 + (c5 * t40 + (c2 * t26 + s2 *
-      t27))) + (Real(0.016) * (s11 * t69 + (c11 * t68 + (c8 * t54 + s8 * t55))) + Real(0.0462) * (s8 + s11)) +
-      Real(0.0038000000000000035));
-  const Real h1c_y = s7 * h8_x + (s10 * h11_x + (s4 * h5_x + (s1 * h2_x - ((c7 - c10) * Real(0.0785) + (c1 -
-      c4) * Real(0.07788)))));
-  const Real h1c_z = c7 * h8_x + (c10 * h11_x + (c4 * h5_x + (c1 * h2_x + (Real(0.0785) * (s7 - s10) +
-      Real(0.07788) * (s1 - s4)))));
-  const Real hg0_z = q0r2_x * h1c_x - (state.y[2] * model.front_abduction1_m - (q0r2_y * h1c_y + q0r2_z *
-      h1c_z));
+  const Real h1c_x = Real(0.0441) * (s2 + s5) + (Real(0.0462) * (s8 + s11) + Real(0.0038000000000000035)) +
+      (Real(0.016) * (c8 * t54 + s8 * t55 + (c11 * t68 + s11 * t69)) + Real(0.0135) * (c2 * t26 + s2 * t27 +
+      (c5 * t40 + s5 * t41)));
+  const Real h1c_y = s7 * h8_x + s4 * h5_x + (s1 * h2_x + (s10 * h11_x - ((c7 - c10) * Real(0.0785) + (c1 -
+      c4) * Real(0.07788))));
+  const Real h1c_z = c7 * h8_x + c4 * h5_x + (c1 * h2_x + (c10 * h11_x + (Real(0.0785) * (s7 - s10) +
+      Real(0.07788) * (s1 - s4))));
+  const Real hg0_z = q0r2_z * h1c_z + (q0r2_y * h1c_y - (state.y[2] * model.front_abduction1_m - q0r2_x *
+      h1c_x));
   const Real V = hg0_z * Real(9.81);
   return -V;
 }

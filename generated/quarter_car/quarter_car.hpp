@@ -27,7 +27,7 @@
 // Checked before this file was written
 // - validated at 8 states: in 77 digits everything below agrees to 1e-40 of its scale (what rounding can move
 //   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 6.3e-17 of the
-//   sum of absolute terms, other errors are 2.3e-16 of their scale; cond(M) up to 3.5e+02
+//   sum of absolute terms, other errors are 3.7e-16 of their scale; cond(M) up to 3.5e+02
 // - 3 kinks of abs, min, max, floor and if, 3 compared on both sides, the nearest 3e-02 of its scale away
 // - the symbolic equations (M, k_bar, q_bar, Z z, energies, initial y, initial z, outputs): the numeric
 //   reference

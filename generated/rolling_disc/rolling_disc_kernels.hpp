@@ -117,10 +117,10 @@ void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[7]
   ydot[0] = state.z[0];
   ydot[1] = state.z[1];
   ydot[2] = state.z[2];
-  ydot[3] = -(t6 * state.z[3] + t7 * state.z[4] + t8 * state.z[5]);
-  ydot[4] = t5 * state.z[3] - t8 * state.z[4] + t7 * state.z[5];
-  ydot[5] = t8 * state.z[3] + t5 * state.z[4] - t6 * state.z[5];
-  ydot[6] = -(t7 * state.z[3] - t6 * state.z[4] - t5 * state.z[5]);
+  ydot[3] = -(t8 * state.z[5] + (t6 * state.z[3] + t7 * state.z[4]));
+  ydot[4] = t7 * state.z[5] + (t5 * state.z[3] - t8 * state.z[4]);
+  ydot[5] = -(t6 * state.z[5] - (t8 * state.z[3] + t5 * state.z[4]));
+  ydot[6] = t5 * state.z[5] - (t7 * state.z[3] - t6 * state.z[4]);
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -150,10 +150,8 @@ void mass_matrix(const Model<Real>& model, const State<Real>&, Real (&M)[6][6]) 
 
 template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[6]) noexcept {
-  const Real kww00 = state.z[4] * state.z[5];
-  const Real kww02 = state.z[3] * state.z[4];
-  const Real kdn0_x = kww00 * model.kdS00;
-  const Real kdn0_z = kww02 * model.kdS00;
+  const Real kdn0_x = model.kdS00 * (state.z[4] * state.z[5]);
+  const Real kdn0_z = model.kdS00 * (state.z[3] * state.z[4]);
   k[0] = Real(0.0);
   k[1] = Real(0.0);
   k[2] = Real(0.0);
@@ -192,7 +190,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t24 = t22 * model.radius;
   const Real t25 = t20 * t24;
   const Real q0r2_x = Real(2.0) * (state.y[5] * state.y[3] - q0d1 * t19);
-  const Real t37 = t25 * (q0d3 * t19 - (state.y[5] * state.y[5] - (state.y[3] * state.y[3] - q0d1 * t17)));
+  const Real t37 = t25 * (state.y[5] * state.y[5] - state.y[3] * state.y[3] - (q0d3 * t19 - q0d1 * t17));
   const Real t38 = t25 * q0r2_x;
   const Real q0d2 = Real(2.0) * state.y[5];
   const Real q011 = state.y[4] * q0d1;
@@ -210,81 +208,78 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real groundc_y = t25 * q0r1_y;
   const Real groundc_z = model.radius * (t12 / groundup);
   const Real grounds1bn0_x = q0r1_x * groundc_z - q0r2_x * groundc_y;
-  const Real grounds1bn0_y = model.radius * (t21 * q0r1_y);
+  const Real grounds1bn0_y = t21 * (model.radius * q0r1_y);
   const Real grounds1bn0_z = q0r1_z * groundc_z - q0r2_z * groundc_y;
   const Real q0r0_x = q033 - (Real(1.0) - q022);
   const Real q0r0_y = q012 - q003;
   const Real q0r0_z = q013 + q002;
   const Real groundc_x = t25 * q0r0_y;
   const Real grounds2bn0_x = groundc_z * q0r0_x - q0r2_x * groundc_x;
-  const Real grounds2bn0_y = model.radius * (t21 * q0r0_y);
+  const Real grounds2bn0_y = t21 * (model.radius * q0r0_y);
   const Real grounds2bn0_z = groundc_z * q0r0_z + q0r2_z * groundc_x;
   const Real t82 = grounds1bn0_x * model.c6;
   const Real t83 = grounds1bn0_z * model.c6;
-  const Real t86 = t37 * t82 + t38 * t83;
+  const Real t86 = t37 * t82 - t38 * t83;
   const Real t92 = grounds2bn0_x * model.c6;
   const Real t93 = grounds2bn0_y * model.c7;
   const Real t94 = grounds2bn0_z * model.c6;
-  const Real t97 = t37 * t92 - t38 * t94;
+  const Real t97 = t37 * t92 + t38 * t94;
   const Real t108 = Real(1.0) / (model.c6 * (t37 * t37 + t38 * t38) + model.c8);
   const Real t109 = t86 * t108;
   const Real t116 = t97 * t108;
-  const Real t120 = grounds1bn0_y * t93 + (grounds1bn0_x * t92 - (grounds1bn0_z * t94 + t86 * t116));
-  const Real t122 = Real(1.0) / (grounds1bn0_x * t82 + (grounds1bn0_y * grounds1bn0_y * model.c7 +
-      (grounds1bn0_z * t83 - t86 * t109)) + model.c9);
+  const Real t120 = t86 * t116 + (grounds1bn0_z * t94 - (grounds1bn0_x * t92 + grounds1bn0_y * t93));
+  const Real t122 = Real(1.0) / (t86 * t109 - (grounds1bn0_z * t83 + (grounds1bn0_x * t82 + (grounds1bn0_y *
+      (grounds1bn0_y * model.c7) + model.c9))));
   const Real t123 = t120 * t122;
-  const Real t131 = Real(1.0) / (grounds2bn0_x * t92 + (grounds2bn0_y * t93 + (grounds2bn0_z * t94 - (t97 *
-      t116 + t120 * t123))) + model.c10);
-  const Real t136 = t18 * state.z[4] + (t17 * state.z[3] + t19 * state.z[5]);
-  const Real t141 = t19 * state.z[4] - (t16 * state.z[3] + t18 * state.z[5]);
-  const Real t146 = t16 * state.z[4] + (t19 * state.z[3] - t17 * state.z[5]);
-  const Real t151 = t17 * state.z[4] - (t18 * state.z[3] - t16 * state.z[5]);
-  const Real t157 = Real(2.0) * state.y[3];
-  const Real t161 = t141 * (q0d1 + q0d1);
-  const Real t183 = q0d2 * t151 + q0d3 * t146 - (t141 * t157 + q0d1 * t136);
-  const Real t191 = t20 * t22;
-  const Real t200 = q0r2_x * state.z[3] + (q0r2_z * state.z[5] - q0r2_y * state.z[4]);
-  const Real t219 = t183 * (t25 + t25 + t21 * groundc_z * t191);
-  const Real rww00 = state.z[4] * state.z[5];
-  const Real rww02 = state.z[3] * state.z[4];
-  const Real rdn0_x = rww00 * model.rdS00;
-  const Real rdn0_z = rww02 * model.rdS00;
-  const Real t237 = model.c6 * rdn0_x;
-  const Real t238 = model.c6 * rdn0_z;
-  const Real t250 = (q0d3 * t141 - q0d1 * t151 + (t146 * t157 - q0d2 * t136)) * (t25 * state.z[5]) + ((t161 -
-      t146 * (q0d2 + q0d2)) * (t25 * state.z[3]) + (t183 * (Real(2.0) * (t24 * t183) + model.radius * (t20 *
-      (t183 * (t21 * t22 * t191)))) + (t37 * t237 - t38 * t238))) - model.c12;
-  const Real t255 = (q0r1_z * state.z[5] + (q0r1_x * state.z[3] - q0r1_y * state.z[4])) * t219 - (t200 * (t183
-      * (grounds1bn0_y + t21 * groundc_y * t191) - t25 * (t161 - t151 * (q0d3 + q0d3))) - (grounds1bn0_x *
-      t237 - (grounds1bn0_z * t238 + t109 * t250)));
-  const Real t265 = t131 * ((q0r0_x * state.z[3] - (q0r0_z * state.z[5] + q0r0_y * state.z[4])) * t219 + (t200
-      * (t25 * (q0d2 * t141 - q0d1 * t146 + (t151 * t157 - q0d3 * t136)) - t183 * (grounds2bn0_y + t21 *
-      groundc_x * t191)) + (grounds2bn0_x * t237 + (grounds2bn0_z * t238 - (t116 * t250 + t123 * t255)))));
-  const Real t267 = t122 * t255 - t123 * t265;
-  const Real t271 = t109 * t267 - (t108 * t250 - t116 * t265);
-  const Real t273 = t271 * Real(4.9999999999999995e-11);
-  const Real t279 = t267 * Real(1.5000000000000002e-10) + t109 * t273;
-  const Real t286 = t131 * (t116 * t273 + (t265 * Real(2.5e-10) - t123 * t279));
-  const Real t288 = t122 * t279 - t123 * t286;
-  const Real t293 = t108 * t273 + (t271 + (t109 * t288 + t116 * t286));
-  const Real t294 = t267 + t288;
-  const Real t295 = t265 + t286;
-  zdot[0] = -(t294 * model.c13);
-  zdot[1] = -(t295 * model.c13);
-  zdot[2] = (t293 - model.q_2) * model.c13;
-  zdot[3] = model.c6 * (t37 * t293 + (rdn0_x - (grounds1bn0_x * t294 + grounds2bn0_x * t295)));
-  zdot[4] = -(model.c7 * (grounds1bn0_y * t294 + grounds2bn0_y * t295));
-  zdot[5] = model.c6 * (t38 * t293 - (rdn0_z + (grounds1bn0_z * t294 - grounds2bn0_z * t295)));
+  const Real t131 = Real(1.0) / (t120 * t123 - (t97 * t116 - (grounds2bn0_z * t94 + (grounds2bn0_x * t92 +
+      (grounds2bn0_y * t93 + model.c10)))));
+  const Real t136 = t19 * state.z[5] + (t17 * state.z[3] + t18 * state.z[4]);
+  const Real t141 = t18 * state.z[5] + (t16 * state.z[3] - t19 * state.z[4]);
+  const Real t146 = t17 * state.z[5] - (t19 * state.z[3] + t16 * state.z[4]);
+  const Real t151 = t16 * state.z[5] - (t18 * state.z[3] - t17 * state.z[4]);
+  const Real t153 = Real(2.0) * state.y[3];
+  const Real t157 = t141 * (q0d1 + q0d1);
+  const Real t175 = t141 * t153 + q0d2 * t151 - (q0d3 * t146 + q0d1 * t136);
+  const Real t187 = t20 * t22;
+  const Real t188 = t21 * t187;
+  const Real t197 = q0r2_x * state.z[3] + (q0r2_z * state.z[5] - q0r2_y * state.z[4]);
+  const Real t215 = t175 * (t187 * (t21 * groundc_z) + (t25 + t25));
+  const Real rdn0_x = model.rdS00 * (state.z[4] * state.z[5]);
+  const Real rdn0_z = model.rdS00 * (state.z[3] * state.z[4]);
+  const Real t236 = model.c6 * rdn0_x;
+  const Real t237 = model.c6 * rdn0_z;
+  const Real t249 = t37 * t236 + t38 * t237 + (t25 * (state.z[3] * (t157 - t146 * (q0d2 + q0d2))) + model.c12
+      + (t25 * (state.z[5] * (q0d3 * t141 + q0d1 * t151 + (t146 * t153 + q0d2 * t136))) - t175 * (t24 *
+      (Real(2.0) * t175) + t187 * (t22 * (t21 * (t175 * (t20 * model.radius)))))));
+  const Real t254 = t109 * t249 + (t197 * (t175 * (grounds1bn0_y + groundc_y * t188) + t25 * (t157 + t151 *
+      (q0d3 + q0d3))) + (grounds1bn0_z * t237 + ((q0r1_y * state.z[4] - (q0r1_x * state.z[3] + q0r1_z *
+      state.z[5])) * t215 - grounds1bn0_x * t236)));
+  const Real t264 = t131 * (t123 * t254 - (t116 * t249 + (t197 * (t25 * (q0d2 * t141 - t151 * t153 - (q0d1 *
+      t146 - q0d3 * t136)) + t175 * (grounds2bn0_y + groundc_x * t188)) - (grounds2bn0_z * t237 + ((q0r0_x *
+      state.z[3] - (q0r0_z * state.z[5] + q0r0_y * state.z[4])) * t215 + grounds2bn0_x * t236)))));
+  const Real t266 = t122 * t254 - t123 * t264;
+  const Real t270 = t109 * t266 - (t108 * t249 - t116 * t264);
+  const Real t272 = t270 * Real(4.9999999999999995e-11);
+  const Real t278 = t266 * Real(1.5000000000000002e-10) + t109 * t272;
+  const Real t285 = t131 * (t123 * t278 - (t264 * Real(2.5e-10) + t116 * t272));
+  const Real t287 = t122 * t278 - t123 * t285;
+  const Real t292 = t109 * t287 + (t116 * t285 - (t270 + t108 * t272));
+  const Real t293 = t266 - t287;
+  const Real t294 = t264 - t285;
+  zdot[0] = -(t293 * model.c13);
+  zdot[1] = -(t294 * model.c13);
+  zdot[2] = (t292 - model.q_2) * model.c13;
+  zdot[3] = -(model.c6 * (t37 * t292 + (grounds1bn0_x * t293 - (rdn0_x - grounds2bn0_x * t294))));
+  zdot[4] = -(model.c7 * (grounds1bn0_y * t293 + grounds2bn0_y * t294));
+  zdot[5] = model.c6 * (t38 * t292 - (grounds1bn0_z * t293 + (rdn0_z - grounds2bn0_z * t294)));
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[6], Real
     (&tau)[6]) noexcept {
-  const Real aww00 = state.z[4] * state.z[5];
-  const Real aww02 = state.z[3] * state.z[4];
-  const Real adn0_x = zdot[3] * model.S0b_zz_2 - aww00 * model.kdS00;
+  const Real adn0_x = zdot[3] * model.S0b_zz_2 - model.kdS00 * (state.z[4] * state.z[5]);
   const Real adn0_y = zdot[4] * model.Jy0;
-  const Real adn0_z = zdot[5] * model.S0b_zz_2 + aww02 * model.kdS00;
+  const Real adn0_z = zdot[5] * model.S0b_zz_2 + model.kdS00 * (state.z[3] * state.z[4]);
   const Real fall0_z = zdot[2] + Real(9.81);
   const Real tauf0 = zdot[0] * model.mass;
   const Real tauf1 = zdot[1] * model.mass;
@@ -299,7 +294,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
 
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept {
-  const Real Tfree = (state.z[4] * state.z[4] * model.Jy0 + (state.z[3] * state.z[3] + state.z[5] *
+  const Real Tfree = (model.Jy0 * (state.z[4] * state.z[4]) + (state.z[3] * state.z[3] + state.z[5] *
       state.z[5]) * model.S0b_zz) * Real(0.5) + (state.z[2] * state.z[2] + (state.z[0] * state.z[0] +
       state.z[1] * state.z[1])) * model.c15;
   return Tfree;
@@ -314,7 +309,7 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
 template <class Real> JOURDAIN_FUNCTION
 void outputs(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Outputs<Real>& result)
     noexcept {
-  const Real Tfree = (state.z[4] * state.z[4] * model.Jy0 + (state.z[3] * state.z[3] + state.z[5] *
+  const Real Tfree = (model.Jy0 * (state.z[4] * state.z[4]) + (state.z[3] * state.z[3] + state.z[5] *
       state.z[5]) * model.S0b_zz) * Real(0.5) + (state.z[2] * state.z[2] + (state.z[0] * state.z[0] +
       state.z[1] * state.z[1])) * model.c15;
   const Real V = state.y[2] * model.q_2;
@@ -336,8 +331,8 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real t20 = state.y[6] * Real(0.5);
   const Real t24 = (q0r2_y + q0r2_y) / groundup * model.c16;
   const Real q0r2_x = Real(2.0) * (state.y[5] * state.y[3] - q0d1 * t20);
-  const Real t36 = t24 * (q0d3 * t20 - (state.y[5] * state.y[5] - (state.y[3] * state.y[3] - state.y[4] *
-      state.y[4])));
+  const Real t36 = t24 * (state.y[5] * state.y[5] - state.y[3] * state.y[3] - (q0d3 * t20 - state.y[4] *
+      state.y[4]));
   const Real t37 = t24 * q0r2_x;
   const Real q0d2 = Real(2.0) * state.y[5];
   const Real q011 = state.y[4] * q0d1;
@@ -366,39 +361,38 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real grounds2bn0_z = groundc_z * q0r0_z + q0r2_z * groundc_x;
   const Real t84 = grounds1bn0_x * model.c17;
   const Real t85 = grounds1bn0_z * model.c17;
-  const Real t88 = t36 * t84 + t37 * t85;
+  const Real t88 = t36 * t84 - t37 * t85;
   const Real t94 = grounds2bn0_x * model.c17;
   const Real t95 = grounds2bn0_y * model.c7;
   const Real t96 = grounds2bn0_z * model.c17;
-  const Real t99 = t36 * t94 - t37 * t96;
+  const Real t99 = t36 * t94 + t37 * t96;
   const Real t110 = Real(1.0) / (model.c17 * (t36 * t36 + t37 * t37) + model.c8);
   const Real t111 = t88 * t110;
   const Real t118 = t99 * t110;
-  const Real t122 = grounds1bn0_y * t95 + (grounds1bn0_x * t94 - (grounds1bn0_z * t96 + t88 * t118));
-  const Real t124 = Real(1.0) / (grounds1bn0_x * t84 + (grounds1bn0_y * grounds1bn0_y * model.c7 +
-      (grounds1bn0_z * t85 - t88 * t111)) + model.c9);
+  const Real t122 = t88 * t118 + (grounds1bn0_z * t96 - (grounds1bn0_x * t94 + grounds1bn0_y * t95));
+  const Real t124 = Real(1.0) / (t88 * t111 - (grounds1bn0_x * t84 + model.c9 + (grounds1bn0_y *
+      (grounds1bn0_y * model.c7) + grounds1bn0_z * t85)));
   const Real t125 = t122 * t124;
-  const Real t133 = Real(1.0) / (grounds2bn0_x * t94 + (grounds2bn0_y * t95 + (grounds2bn0_z * t96 - (t99 *
-      t118 + t122 * t125))) + model.c10);
+  const Real t133 = Real(1.0) / (t122 * t125 - (t99 * t118 - (grounds2bn0_x * t94 + model.c10 + (grounds2bn0_y
+      * t95 + grounds2bn0_z * t96))));
   const Real t134 = g_ground * t111;
   const Real t140 = t133 * (g_ground * t118 - t125 * t134);
-  const Real t142 = t124 * t134 - t125 * t140;
-  const Real t146 = t111 * t142 + (g_ground * t110 + t118 * t140);
+  const Real t142 = t124 * t134 + t125 * t140;
+  const Real t146 = t111 * t142 - (g_ground * t110 + t118 * t140);
   const Real t161 = t142 * model.c13;
   const Real t162 = t140 * model.c13;
   const Real t163 = t146 * model.c13;
-  const Real t164 = model.c17 * (grounds1bn0_x * t142 - (t36 * t146 - grounds2bn0_x * t140));
-  const Real t165 = model.c7 * (grounds1bn0_y * t142 + grounds2bn0_y * t140);
-  const Real t166 = model.c17 * (grounds1bn0_z * t142 - (t37 * t146 + grounds2bn0_z * t140));
+  const Real t164 = model.c17 * (t36 * t146 - (grounds1bn0_x * t142 - grounds2bn0_x * t140));
+  const Real t165 = model.c7 * (grounds1bn0_y * t142 - grounds2bn0_y * t140);
+  const Real t166 = model.c17 * (t37 * t146 + (grounds1bn0_z * t142 + grounds2bn0_z * t140));
   const Real t172 = Real(0.5) * t164;
   const Real t173 = Real(0.5) * t165;
   const Real t174 = Real(0.5) * t166;
-  const Real t181 = state.y[3] * t172 - (state.y[4] - (state.y[5] * t174 + state.y[6] * t173));
-  const Real t188 = state.y[3] * t173 + (state.y[5] - (state.y[6] * t172 - state.y[4] * t174));
-  const Real t192 = state.y[4] * t172 + (state.y[3] - (state.y[5] * t173 - state.y[6] * t174));
-  const Real t198 = state.y[3] * t174 - (state.y[6] + (state.y[4] * t173 + state.y[5] * t172));
-  const Real t207 = Real(1.0) / detail::square_root(t181 * t181 + (t192 * t192 + (t188 * t188 + t198 *
-      t198)));
+  const Real t181 = state.y[5] * t174 - (state.y[3] * t172 + (state.y[4] - state.y[6] * t173));
+  const Real t188 = state.y[4] * t174 + (state.y[6] * t172 + (state.y[5] + state.y[3] * t173));
+  const Real t192 = state.y[6] * t174 - (state.y[4] * t172 - (state.y[3] - state.y[5] * t173));
+  const Real t198 = state.y[5] * t172 + (state.y[3] * t174 - (state.y[6] + state.y[4] * t173));
+  const Real t207 = Real(1.0) / detail::square_root(t192 * t192 + t181 * t181 + (t188 * t188 + t198 * t198));
   const Real t208 = t192 * t207;
   const Real t209 = t181 * t207;
   const Real t210 = t188 * t207;
@@ -423,10 +417,10 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real q002_2 = t208 * q0d2_2;
   const Real q003_2 = t208 * q0d3_2;
   const Real q0r1_x_2 = q012_2 + q003_2;
-  const Real t246 = Real(1.0) - q011_2;
-  const Real q0r1_y_2 = q033_2 - t246;
+  const Real t244 = Real(1.0) - q011_2;
+  const Real q0r1_y_2 = q033_2 - t244;
   const Real q0r1_z_2 = q023_2 - q001_2;
-  const Real q0r2_z_2 = q022_2 - t246;
+  const Real q0r2_z_2 = q022_2 - t244;
   const Real groundc_y_2 = model.radius * (q0r2_y_2 * q0r1_y_2 / groundup_2);
   const Real groundc_z_2 = model.radius * (t218 / groundup_2);
   const Real grounds1bn0_x_2 = q0r1_x_2 * groundc_z_2 + q0r2_x_2 * groundc_y_2;
@@ -439,29 +433,29 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real grounds2bn0_x_2 = groundc_z_2 * q0r0_x_2 + q0r2_x_2 * groundc_x_2;
   const Real grounds2bn0_y_2 = groundc_z_2 * q0r0_y_2 + q0r2_y_2 * groundc_x_2;
   const Real grounds2bn0_z_2 = groundc_z_2 * q0r0_z_2 - q0r2_z_2 * groundc_x_2;
-  const Real t289 = t223 * (q0d3_2 * t220 - (t210 * t210 - (t208 * t208 - t209 * t209))) * state.z[3] -
-      (state.z[2] - t223 * q0r2_x_2 * state.z[5]);
-  const Real t300 = grounds1bn0_x_2 * state.z[3] + (state.z[0] + (grounds1bn0_y_2 * state.z[4] +
-      (grounds1bn0_z_2 * state.z[5] + t111 * t289)));
-  const Real t310 = t133 * (grounds2bn0_x_2 * state.z[3] - (state.z[1] - (grounds2bn0_y_2 * state.z[4] -
-      (grounds2bn0_z_2 * state.z[5] + (t118 * t289 - t125 * t300)))));
-  const Real t312 = t124 * t300 + t125 * t310;
-  const Real t316 = t111 * t312 + (t110 * t289 - t118 * t310);
+  const Real t289 = t223 * (q0r2_x_2 * state.z[5]) - (state.z[2] + t223 * ((t210 * t210 - t208 * t208 -
+      (q0d3_2 * t220 - t209 * t209)) * state.z[3]));
+  const Real t300 = grounds1bn0_y_2 * state.z[4] + grounds1bn0_z_2 * state.z[5] - (t111 * t289 - (state.z[0] +
+      grounds1bn0_x_2 * state.z[3]));
+  const Real t310 = t133 * (t125 * t300 + (grounds2bn0_y_2 * state.z[4] - grounds2bn0_z_2 * state.z[5] + (t118
+      * t289 - (state.z[1] - grounds2bn0_x_2 * state.z[3]))));
+  const Real t312 = t124 * t300 - t125 * t310;
+  const Real t316 = t111 * t312 + (t110 * t289 + t118 * t310);
   closed.y[0] = -(t161 - state.y[0]);
-  closed.y[1] = -(t162 - state.y[1]);
-  closed.y[2] = state.y[2] + t163;
+  closed.y[1] = t162 + state.y[1];
+  closed.y[2] = state.y[2] - t163;
   closed.y[3] = t208;
   closed.y[4] = -t209;
   closed.y[5] = t210;
   closed.y[6] = -t211;
-  closed.z[0] = state.z[0] - model.c13 * t312;
+  closed.z[0] = state.z[0] + model.c13 * t312;
   closed.z[1] = state.z[1] + model.c13 * t310;
   closed.z[2] = state.z[2] + model.c13 * t316;
-  closed.z[3] = state.z[3] - model.c17 * (grounds1bn0_x * t312 - (t36 * t316 + grounds2bn0_x * t310));
-  closed.z[4] = state.z[4] + model.c7 * (grounds1bn0_y * t312 - grounds2bn0_y * t310);
-  closed.z[5] = state.z[5] - model.c17 * (grounds1bn0_z * t312 - (t37 * t316 - grounds2bn0_z * t310));
-  closed.regularity = Real(1.0) / (t133 * (t110 * t124)) * Real(0.5333333333333331);
-  closed.opening = t162 * t162 + (t161 * t161 + (t163 * t163 + (t164 * t164 + (t165 * t165 + t166 * t166))));
+  closed.z[3] = state.z[3] - model.c17 * (t36 * t316 - (grounds1bn0_x * t312 + grounds2bn0_x * t310));
+  closed.z[4] = state.z[4] - model.c7 * (grounds1bn0_y * t312 + grounds2bn0_y * t310);
+  closed.z[5] = state.z[5] + model.c17 * (t37 * t316 + (grounds1bn0_z * t312 - grounds2bn0_z * t310));
+  closed.regularity = -(Real(1.0) / (t133 * (t110 * t124)) * Real(0.5333333333333331));
+  closed.opening = t165 * t165 + (t163 * t163 + (t161 * t161 + t162 * t162)) + (t164 * t164 + t166 * t166);
   state = closed;
 }
 
@@ -488,33 +482,33 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real q002 = state.y[3] * q0d2;
   const Real q003 = q0d3 * state.y[3];
   const Real q0r1_x = q012 + q003;
-  const Real t47 = Real(1.0) - q011;
-  const Real q0r1_y = q033 - t47;
+  const Real t45 = Real(1.0) - q011;
+  const Real q0r1_y = q033 - t45;
   const Real q0r1_z = q023 - q001;
-  const Real q0r2_z = q022 - t47;
+  const Real q0r2_z = q022 - t45;
   const Real groundc_y = model.radius * (q0r2_y * q0r1_y / groundup);
   const Real groundc_z = model.radius * (t12 / groundup);
   const Real grounds1bn0_x = q0r1_x * groundc_z - q0r2_x * groundc_y;
   const Real grounds1bn0_y = q0r1_y * groundc_z - q0r2_y * groundc_y;
   const Real grounds1bn0_z = q0r1_z * groundc_z - q0r2_z * groundc_y;
-  const Real q0r0_x = q022 - (Real(1.0) - q033);
+  const Real q0r0_x = q033 - (Real(1.0) - q022);
   const Real q0r0_y = q012 - q003;
   const Real q0r0_z = q013 + q002;
   const Real groundc_x = model.radius * (q0r2_y * q0r0_y / groundup);
   const Real grounds2bn0_x = groundc_z * q0r0_x - q0r2_x * groundc_x;
   const Real grounds2bn0_y = groundc_z * q0r0_y - q0r2_y * groundc_x;
   const Real grounds2bn0_z = groundc_z * q0r0_z + q0r2_z * groundc_x;
-  const Real grounds0 = grounds1bn0_z * state.z[5] - (grounds1bn0_y * state.z[4] - (state.z[0] + grounds1bn0_x
-      * state.z[3]));
-  const Real grounds1 = grounds2bn0_z * state.z[5] + (grounds2bn0_y * state.z[4] - (state.z[1] + grounds2bn0_x
-      * state.z[3]));
+  const Real grounds0 = state.z[0] + grounds1bn0_x * state.z[3] - (grounds1bn0_y * state.z[4] - grounds1bn0_z
+      * state.z[5]);
+  const Real grounds1 = state.z[1] + grounds2bn0_x * state.z[3] - (grounds2bn0_y * state.z[4] + grounds2bn0_z
+      * state.z[5]);
   g[0] = -g_ground;
   g[1] = Real(0.0);
   g[2] = Real(0.0);
-  g_rate[0] = t24 * q0r2_x * state.z[5] + (state.z[2] - t24 * (q0d1 * t20 - (state.y[3] * state.y[3] -
-      (state.y[5] * state.y[5] - state.y[6] * state.y[6]))) * state.z[3]);
+  g_rate[0] = t24 * (q0r2_x * state.z[5]) + (state.z[2] - t24 * ((state.y[5] * state.y[5] - state.y[6] *
+      state.y[6] - (state.y[3] * state.y[3] - q0d1 * t20)) * state.z[3]));
   g_rate[1] = grounds0;
-  g_rate[2] = -grounds1;
+  g_rate[2] = grounds1;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -537,7 +531,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t24 = t22 * model.radius;
   const Real t25 = t20 * t24;
   const Real q0r2_x = Real(2.0) * (state.y[5] * state.y[3] - q0d1 * t19);
-  const Real t37 = t25 * (q0d3 * t19 - (state.y[5] * state.y[5] - (state.y[3] * state.y[3] - q0d1 * t17)));
+  const Real t37 = t25 * (state.y[5] * state.y[5] - state.y[3] * state.y[3] - (q0d3 * t19 - q0d1 * t17));
   const Real t38 = t25 * q0r2_x;
   const Real q0d2 = Real(2.0) * state.y[5];
   const Real q011 = state.y[4] * q0d1;
@@ -555,63 +549,62 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real groundc_y = t25 * q0r1_y;
   const Real groundc_z = model.radius * (t12 / groundup);
   const Real grounds1bn0_x = q0r1_x * groundc_z - q0r2_x * groundc_y;
-  const Real grounds1bn0_y = model.radius * (t21 * q0r1_y);
+  const Real grounds1bn0_y = t21 * (model.radius * q0r1_y);
   const Real grounds1bn0_z = q0r1_z * groundc_z - q0r2_z * groundc_y;
   const Real q0r0_x = q033 - (Real(1.0) - q022);
   const Real q0r0_y = q012 - q003;
   const Real q0r0_z = q013 + q002;
   const Real groundc_x = t25 * q0r0_y;
   const Real grounds2bn0_x = groundc_z * q0r0_x - q0r2_x * groundc_x;
-  const Real grounds2bn0_y = model.radius * (t21 * q0r0_y);
+  const Real grounds2bn0_y = t21 * (model.radius * q0r0_y);
   const Real grounds2bn0_z = groundc_z * q0r0_z + q0r2_z * groundc_x;
   const Real t82 = grounds1bn0_x * model.c6;
   const Real t83 = grounds1bn0_z * model.c6;
-  const Real t86 = t37 * t82 + t38 * t83;
+  const Real t86 = t37 * t82 - t38 * t83;
   const Real t92 = grounds2bn0_x * model.c6;
   const Real t93 = grounds2bn0_y * model.c7;
   const Real t94 = grounds2bn0_z * model.c6;
-  const Real t97 = t37 * t92 - t38 * t94;
+  const Real t97 = t37 * t92 + t38 * t94;
   const Real t108 = Real(1.0) / (model.c6 * (t37 * t37 + t38 * t38) + model.c8);
   const Real t109 = t86 * t108;
   const Real t116 = t97 * t108;
-  const Real t120 = grounds1bn0_y * t93 + (grounds1bn0_x * t92 - (grounds1bn0_z * t94 + t86 * t116));
-  const Real t122 = Real(1.0) / (grounds1bn0_x * t82 + (grounds1bn0_y * grounds1bn0_y * model.c7 +
-      (grounds1bn0_z * t83 - t86 * t109)) + model.c9);
+  const Real t120 = t86 * t116 + (grounds1bn0_z * t94 - (grounds1bn0_x * t92 + grounds1bn0_y * t93));
+  const Real t122 = Real(1.0) / (t86 * t109 - (grounds1bn0_z * t83 + (grounds1bn0_x * t82 + (grounds1bn0_y *
+      (grounds1bn0_y * model.c7) + model.c9))));
   const Real t123 = t120 * t122;
-  const Real t131 = Real(1.0) / (grounds2bn0_x * t92 + (grounds2bn0_y * t93 + (grounds2bn0_z * t94 - (t97 *
-      t116 + t120 * t123))) + model.c10);
-  const Real t136 = t18 * state.z[4] + (t17 * state.z[3] + t19 * state.z[5]);
-  const Real t141 = t19 * state.z[4] - (t16 * state.z[3] + t18 * state.z[5]);
-  const Real t146 = t16 * state.z[4] + (t19 * state.z[3] - t17 * state.z[5]);
-  const Real t151 = t17 * state.z[4] - (t18 * state.z[3] - t16 * state.z[5]);
-  const Real t157 = Real(2.0) * state.y[3];
-  const Real t161 = t141 * (q0d1 + q0d1);
-  const Real t183 = q0d2 * t151 + q0d3 * t146 - (t141 * t157 + q0d1 * t136);
-  const Real t191 = t20 * t22;
-  const Real t200 = q0r2_x * state.z[3] + (q0r2_z * state.z[5] - q0r2_y * state.z[4]);
-  const Real t219 = t183 * (t25 + t25 + t21 * groundc_z * t191);
-  const Real rww00 = state.z[4] * state.z[5];
-  const Real rww02 = state.z[3] * state.z[4];
-  const Real t235 = rww00 * model.c18;
-  const Real t236 = rww02 * model.c18;
-  const Real t248 = (q0d3 * t141 - q0d1 * t151 + (t146 * t157 - q0d2 * t136)) * (t25 * state.z[5]) + ((t161 -
-      t146 * (q0d2 + q0d2)) * (t25 * state.z[3]) + (t183 * (Real(2.0) * (t24 * t183) + model.radius * (t20 *
-      (t183 * (t21 * t22 * t191)))) + (t37 * t235 - t38 * t236))) - model.c12;
-  const Real t253 = (q0r1_z * state.z[5] + (q0r1_x * state.z[3] - q0r1_y * state.z[4])) * t219 - (t200 * (t183
-      * (grounds1bn0_y + t21 * groundc_y * t191) - t25 * (t161 - t151 * (q0d3 + q0d3))) - (grounds1bn0_x *
-      t235 - (grounds1bn0_z * t236 + t109 * t248)));
-  const Real t263 = t131 * ((q0r0_x * state.z[3] - (q0r0_z * state.z[5] + q0r0_y * state.z[4])) * t219 + (t200
-      * (t25 * (q0d2 * t141 - q0d1 * t146 + (t151 * t157 - q0d3 * t136)) - t183 * (grounds2bn0_y + t21 *
-      groundc_x * t191)) + (grounds2bn0_x * t235 + (grounds2bn0_z * t236 - (t116 * t248 + t123 * t253)))));
-  const Real t265 = t122 * t253 - t123 * t263;
-  const Real t269 = t109 * t265 - (t108 * t248 - t116 * t263);
-  const Real t271 = t269 * Real(4.9999999999999995e-11);
-  const Real t277 = t265 * Real(1.5000000000000002e-10) + t109 * t271;
-  const Real t284 = t131 * (t116 * t271 + (t263 * Real(2.5e-10) - t123 * t277));
-  const Real t286 = t122 * t277 - t123 * t284;
-  lambda[0] = -(t108 * t271 + (t269 + (t109 * t286 + t116 * t284)));
-  lambda[1] = t265 + t286;
-  lambda[2] = t263 + t284;
+  const Real t131 = Real(1.0) / (t120 * t123 - (t97 * t116 - (grounds2bn0_z * t94 + (grounds2bn0_x * t92 +
+      (grounds2bn0_y * t93 + model.c10)))));
+  const Real t136 = t19 * state.z[5] + (t17 * state.z[3] + t18 * state.z[4]);
+  const Real t141 = t18 * state.z[5] + (t16 * state.z[3] - t19 * state.z[4]);
+  const Real t146 = t17 * state.z[5] - (t19 * state.z[3] + t16 * state.z[4]);
+  const Real t151 = t16 * state.z[5] - (t18 * state.z[3] - t17 * state.z[4]);
+  const Real t153 = Real(2.0) * state.y[3];
+  const Real t157 = t141 * (q0d1 + q0d1);
+  const Real t175 = t141 * t153 + q0d2 * t151 - (q0d3 * t146 + q0d1 * t136);
+  const Real t187 = t20 * t22;
+  const Real t188 = t21 * t187;
+  const Real t197 = q0r2_x * state.z[3] + (q0r2_z * state.z[5] - q0r2_y * state.z[4]);
+  const Real t215 = t175 * (t187 * (t21 * groundc_z) + (t25 + t25));
+  const Real t233 = model.c18 * (state.z[4] * state.z[5]);
+  const Real t235 = model.c18 * (state.z[3] * state.z[4]);
+  const Real t247 = t37 * t233 + t38 * t235 + (t25 * (state.z[3] * (t157 - t146 * (q0d2 + q0d2))) + model.c12
+      + (t25 * (state.z[5] * (q0d3 * t141 + q0d1 * t151 + (t146 * t153 + q0d2 * t136))) - t175 * (t24 *
+      (Real(2.0) * t175) + t187 * (t22 * (t21 * (t175 * (t20 * model.radius)))))));
+  const Real t252 = t109 * t247 + (t197 * (t175 * (grounds1bn0_y + groundc_y * t188) + t25 * (t157 + t151 *
+      (q0d3 + q0d3))) + (grounds1bn0_z * t235 + ((q0r1_y * state.z[4] - (q0r1_x * state.z[3] + q0r1_z *
+      state.z[5])) * t215 - grounds1bn0_x * t233)));
+  const Real t262 = t131 * (t123 * t252 - (t116 * t247 + (t197 * (t25 * (q0d2 * t141 - t151 * t153 - (q0d1 *
+      t146 - q0d3 * t136)) + t175 * (grounds2bn0_y + groundc_x * t188)) - (grounds2bn0_z * t235 + ((q0r0_x *
+      state.z[3] - (q0r0_z * state.z[5] + q0r0_y * state.z[4])) * t215 + grounds2bn0_x * t233)))));
+  const Real t264 = t122 * t252 - t123 * t262;
+  const Real t268 = t109 * t264 - (t108 * t247 - t116 * t262);
+  const Real t270 = t268 * Real(4.9999999999999995e-11);
+  const Real t276 = t264 * Real(1.5000000000000002e-10) + t109 * t270;
+  const Real t283 = t131 * (t123 * t276 - (t262 * Real(2.5e-10) + t116 * t270));
+  const Real t285 = t122 * t276 - t123 * t283;
+  lambda[0] = -(t109 * t285 + (t116 * t283 - (t268 + t108 * t270)));
+  lambda[1] = t264 - t285;
+  lambda[2] = t262 - t283;
 }
 
 template <class Real> JOURDAIN_FUNCTION

@@ -326,10 +326,10 @@ void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[7]
   ydot[0] = state.z[0];
   ydot[1] = state.z[1];
   ydot[2] = state.z[2];
-  ydot[3] = -(t6 * state.z[3] + t7 * state.z[4] + t8 * state.z[5]);
-  ydot[4] = t5 * state.z[3] - t8 * state.z[4] + t7 * state.z[5];
-  ydot[5] = t8 * state.z[3] + t5 * state.z[4] - t6 * state.z[5];
-  ydot[6] = -(t7 * state.z[3] - t6 * state.z[4] - t5 * state.z[5]);
+  ydot[3] = -(t8 * state.z[5] + (t6 * state.z[3] + t7 * state.z[4]));
+  ydot[4] = t7 * state.z[5] + (t5 * state.z[3] - t8 * state.z[4]);
+  ydot[5] = -(t6 * state.z[5] - (t8 * state.z[3] + t5 * state.z[4]));
+  ydot[6] = t5 * state.z[5] - (t7 * state.z[3] - t6 * state.z[4]);
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -359,10 +359,8 @@ void mass_matrix(const Model<Real>& model, const State<Real>&, Real (&M)[6][6]) 
 
 template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[6]) noexcept {
-  const Real kww00 = state.z[4] * state.z[5];
-  const Real kww02 = state.z[3] * state.z[4];
-  const Real kdn0_x = kww00 * model.kdS00;
-  const Real kdn0_z = kww02 * model.kdS00;
+  const Real kdn0_x = model.kdS00 * (state.z[4] * state.z[5]);
+  const Real kdn0_z = model.kdS00 * (state.z[3] * state.z[4]);
   k[0] = Real(0.0);
   k[1] = Real(0.0);
   k[2] = Real(0.0);
@@ -409,16 +407,16 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real groundgs_zz = Real(1.0) - q0r2_y * q0r2_y;
   const Real expression_3 = expression_2 * model.c6;
   const Real expression_6 = expression_3 * expression_5;
-  const Real expression_8 = expression_5 * expression_7 * model.c7;
+  const Real expression_8 = expression_7 * (expression_5 * model.c7);
   const Real expression_9 = expression_7 * model.hill;
   const Real expression_11 = model.wave * expression_10;
   const Real expression_12 = expression_9 * expression_11;
   const Real expression_13 = expression_3 * expression_11;
-  const Real expression_14 = expression_5 * expression_9 * model.c9;
+  const Real expression_14 = expression_9 * (expression_5 * model.c9);
   const Real groundg0e_x = groundgs_xy * expression_12 - (groundgs_xz + groundgs_xx * expression_6);
   const Real groundg0e_y = groundgs_yy * expression_12 + (groundgs_yz - groundgs_xy * expression_6);
-  const Real groundg0u = expression_6 * (groundgs_xz - groundg0e_x) + (groundgs_zz + expression_12 *
-      (groundgs_yz + groundg0e_y));
+  const Real groundg0u = expression_12 * (groundgs_yz + groundg0e_y) + (groundgs_zz + expression_6 *
+      (groundgs_xz - groundg0e_x));
   const Real groundg0r = detail::square_root(groundg0u);
   const Real groundg0i = Real(1.0) / groundg0r;
   const Real groundg0q_x = groundg0e_x * groundg0i;
@@ -440,12 +438,10 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real groundg0j_4 = Real(1.0) + groundg0l * groundg0k_4;
   const Real groundg0t = groundg0j * groundg0j_4 - groundg0j_2 * groundg0j_3;
   const Real groundg0d = Real(1.0) / groundg0t;
-  const Real groundg0a = groundg0j_4 * groundg0d;
-  const Real groundg0a_2 = groundg0j_2 * groundg0d;
-  const Real groundg0a_3 = groundg0j_3 * groundg0d;
-  const Real groundg0a_4 = groundg0j * groundg0d;
-  const Real groundgc = groundg0f_2 * groundg0a_2 + (state.y[0] - groundg0f * groundg0a);
-  const Real groundgc_2 = groundg0f_2 * groundg0a_4 - (state.y[1] + groundg0f * groundg0a_3);
+  const Real groundgc = groundg0d * (groundg0f_2 * groundg0j_2) + (state.y[0] - groundg0d * (groundg0f *
+      groundg0j_4));
+  const Real groundgc_2 = groundg0d * (groundg0f_2 * groundg0j) - (state.y[1] + groundg0d * (groundg0f *
+      groundg0j_3));
   const Real expression_15 = model.wave * groundgc;
   Real expression_21, expression_16;
   detail::sine_cosine(expression_15, expression_21, expression_16);
@@ -454,17 +450,17 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   Real expression_24, expression_19;
   detail::sine_cosine(expression_18, expression_24, expression_19);
   const Real expression_20 = expression_17 * expression_19;
-  const Real expression_22 = model.c7 * (expression_19 * expression_21);
+  const Real expression_22 = expression_21 * (model.c7 * expression_19);
   const Real expression_23 = model.hill * expression_21;
   const Real expression_25 = model.wave * expression_24;
   const Real expression_26 = expression_23 * expression_25;
   const Real expression_27 = expression_17 * expression_25;
-  const Real expression_28 = model.c9 * (expression_19 * expression_23);
+  const Real expression_28 = expression_23 * (model.c9 * expression_19);
   const Real groundg1e_x = groundgs_xy * expression_26 + (groundgs_xz + groundgs_xx * expression_20);
   const Real groundg1e_y = groundgs_yy * expression_26 - (groundgs_yz - groundgs_xy * expression_20);
-  const Real groundg1u = expression_20 * (groundgs_xz + groundg1e_x) + (groundgs_zz - expression_26 *
-      (groundgs_yz - groundg1e_y));
-  const Real groundg1r = detail::square_root(groundg1u);
+  const Real groundg1u = expression_26 * (groundgs_yz - groundg1e_y) - (groundgs_zz + expression_20 *
+      (groundgs_xz + groundg1e_x));
+  const Real groundg1r = detail::square_root(-groundg1u);
   const Real groundg1i = Real(1.0) / groundg1r;
   const Real groundg1q_x = groundg1e_x * groundg1i;
   const Real groundg1q_y = groundg1e_y * groundg1i;
@@ -474,23 +470,21 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real groundg1f_2 = model.radius * groundg1q_y + (state.y[1] + groundgc_2);
   const Real groundg1p_2 = groundgs_xy - groundg1q_x * groundg1q_y;
   const Real groundg1p_3 = groundgs_yy - groundg1q_y * groundg1q_y;
-  const Real t160 = expression_27 * groundg1p_2;
-  const Real groundg1k = expression_22 * groundg1p - t160;
+  const Real t161 = expression_27 * groundg1p_2;
+  const Real groundg1k = expression_22 * groundg1p - t161;
   const Real groundg1j = Real(1.0) + groundg1l * groundg1k;
   const Real groundg1k_2 = expression_27 * groundg1p - expression_28 * groundg1p_2;
   const Real groundg1j_2 = groundg1l * groundg1k_2;
   const Real groundg1k_3 = expression_22 * groundg1p_2 - expression_27 * groundg1p_3;
   const Real groundg1j_3 = groundg1l * groundg1k_3;
-  const Real groundg1k_4 = t160 - expression_28 * groundg1p_3;
+  const Real groundg1k_4 = t161 - expression_28 * groundg1p_3;
   const Real groundg1j_4 = Real(1.0) - groundg1l * groundg1k_4;
   const Real groundg1t = groundg1j * groundg1j_4 + groundg1j_2 * groundg1j_3;
   const Real groundg1d = Real(1.0) / groundg1t;
-  const Real groundg1a = groundg1j_4 * groundg1d;
-  const Real groundg1a_2 = groundg1j_2 * groundg1d;
-  const Real groundg1a_3 = groundg1j_3 * groundg1d;
-  const Real groundg1a_4 = groundg1j * groundg1d;
-  const Real groundgc_3 = groundg1f_2 * groundg1a_2 + (groundgc + groundg1f * groundg1a);
-  const Real groundgc_4 = groundg1f_2 * groundg1a_4 - (groundgc_2 + groundg1f * groundg1a_3);
+  const Real groundgc_3 = groundg1d * (groundg1f_2 * groundg1j_2) + (groundgc + groundg1d * (groundg1f *
+      groundg1j_4));
+  const Real groundgc_4 = groundg1d * (groundg1f_2 * groundg1j) - (groundgc_2 + groundg1d * (groundg1f *
+      groundg1j_3));
   const Real expression_29 = model.wave * groundgc_3;
   Real expression_35, expression_30;
   detail::sine_cosine(expression_29, expression_35, expression_30);
@@ -499,16 +493,16 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   Real expression_38, expression_33;
   detail::sine_cosine(expression_32, expression_38, expression_33);
   const Real expression_34 = expression_31 * expression_33;
-  const Real expression_36 = model.c7 * (expression_33 * expression_35);
+  const Real expression_36 = expression_35 * (model.c7 * expression_33);
   const Real expression_37 = model.hill * expression_35;
   const Real expression_39 = model.wave * expression_38;
   const Real expression_40 = expression_37 * expression_39;
   const Real expression_41 = expression_31 * expression_39;
-  const Real expression_42 = model.c9 * (expression_33 * expression_37);
+  const Real expression_42 = expression_37 * (model.c9 * expression_33);
   const Real groundg2e_x = groundgs_xy * expression_40 - (groundgs_xz + groundgs_xx * expression_34);
   const Real groundg2e_y = groundgs_yy * expression_40 + (groundgs_yz - groundgs_xy * expression_34);
-  const Real groundg2u = expression_34 * (groundgs_xz - groundg2e_x) + (groundgs_zz + expression_40 *
-      (groundgs_yz + groundg2e_y));
+  const Real groundg2u = expression_40 * (groundgs_yz + groundg2e_y) + (groundgs_zz + expression_34 *
+      (groundgs_xz - groundg2e_x));
   const Real groundg2r = detail::square_root(groundg2u);
   const Real groundg2i = Real(1.0) / groundg2r;
   const Real groundg2q_x = groundg2e_x * groundg2i;
@@ -519,23 +513,21 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real groundg2f_2 = model.radius * groundg2q_y - (state.y[1] - groundgc_4);
   const Real groundg2p_2 = groundgs_xy - groundg2q_x * groundg2q_y;
   const Real groundg2p_3 = groundgs_yy - groundg2q_y * groundg2q_y;
-  const Real t240 = expression_41 * groundg2p_2;
-  const Real groundg2k = expression_36 * groundg2p + t240;
+  const Real t241 = expression_41 * groundg2p_2;
+  const Real groundg2k = expression_36 * groundg2p + t241;
   const Real groundg2j = Real(1.0) + groundg2l * groundg2k;
   const Real groundg2k_2 = expression_41 * groundg2p + expression_42 * groundg2p_2;
   const Real groundg2j_2 = groundg2l * groundg2k_2;
   const Real groundg2k_3 = expression_36 * groundg2p_2 + expression_41 * groundg2p_3;
   const Real groundg2j_3 = groundg2l * groundg2k_3;
-  const Real groundg2k_4 = t240 + expression_42 * groundg2p_3;
+  const Real groundg2k_4 = t241 + expression_42 * groundg2p_3;
   const Real groundg2j_4 = Real(1.0) + groundg2l * groundg2k_4;
   const Real groundg2t = groundg2j * groundg2j_4 - groundg2j_2 * groundg2j_3;
   const Real groundg2d = Real(1.0) / groundg2t;
-  const Real groundg2a = groundg2j_4 * groundg2d;
-  const Real groundg2a_2 = groundg2j_2 * groundg2d;
-  const Real groundg2a_3 = groundg2j_3 * groundg2d;
-  const Real groundg2a_4 = groundg2j * groundg2d;
-  const Real groundgc_5 = groundg2f_2 * groundg2a_2 + (groundgc_3 - groundg2f * groundg2a);
-  const Real groundgc_6 = groundg2f_2 * groundg2a_4 - (groundgc_4 + groundg2f * groundg2a_3);
+  const Real groundgc_5 = groundg2d * (groundg2f_2 * groundg2j_2) + (groundgc_3 - groundg2d * (groundg2f *
+      groundg2j_4));
+  const Real groundgc_6 = groundg2d * (groundg2f_2 * groundg2j) - (groundgc_4 + groundg2d * (groundg2f *
+      groundg2j_3));
   const Real expression_43 = model.wave * groundgc_5;
   Real expression_49, expression_44;
   detail::sine_cosine(expression_43, expression_49, expression_44);
@@ -544,17 +536,17 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   Real expression_52, expression_47;
   detail::sine_cosine(expression_46, expression_52, expression_47);
   const Real expression_48 = expression_45 * expression_47;
-  const Real expression_50 = model.c7 * (expression_47 * expression_49);
+  const Real expression_50 = expression_49 * (model.c7 * expression_47);
   const Real expression_51 = model.hill * expression_49;
   const Real expression_53 = model.wave * expression_52;
   const Real expression_54 = expression_51 * expression_53;
   const Real expression_55 = expression_45 * expression_53;
-  const Real expression_56 = model.c9 * (expression_47 * expression_51);
+  const Real expression_56 = expression_51 * (model.c9 * expression_47);
   const Real groundg3e_x = groundgs_xy * expression_54 + (groundgs_xz + groundgs_xx * expression_48);
   const Real groundg3e_y = groundgs_yy * expression_54 - (groundgs_yz - groundgs_xy * expression_48);
-  const Real groundg3u = expression_48 * (groundgs_xz + groundg3e_x) + (groundgs_zz - expression_54 *
-      (groundgs_yz - groundg3e_y));
-  const Real groundg3r = detail::square_root(groundg3u);
+  const Real groundg3u = expression_54 * (groundgs_yz - groundg3e_y) - (groundgs_zz + expression_48 *
+      (groundgs_xz + groundg3e_x));
+  const Real groundg3r = detail::square_root(-groundg3u);
   const Real groundg3i = Real(1.0) / groundg3r;
   const Real groundg3q_x = groundg3e_x * groundg3i;
   const Real groundg3q_y = groundg3e_y * groundg3i;
@@ -564,23 +556,21 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real groundg3f_2 = model.radius * groundg3q_y + (state.y[1] + groundgc_6);
   const Real groundg3p_2 = groundgs_xy - groundg3q_x * groundg3q_y;
   const Real groundg3p_3 = groundgs_yy - groundg3q_y * groundg3q_y;
-  const Real t320 = expression_55 * groundg3p_2;
-  const Real groundg3k = expression_50 * groundg3p - t320;
+  const Real t322 = expression_55 * groundg3p_2;
+  const Real groundg3k = expression_50 * groundg3p - t322;
   const Real groundg3j = Real(1.0) + groundg3l * groundg3k;
   const Real groundg3k_2 = expression_55 * groundg3p - expression_56 * groundg3p_2;
   const Real groundg3j_2 = groundg3l * groundg3k_2;
   const Real groundg3k_3 = expression_50 * groundg3p_2 - expression_55 * groundg3p_3;
   const Real groundg3j_3 = groundg3l * groundg3k_3;
-  const Real groundg3k_4 = t320 - expression_56 * groundg3p_3;
+  const Real groundg3k_4 = t322 - expression_56 * groundg3p_3;
   const Real groundg3j_4 = Real(1.0) - groundg3l * groundg3k_4;
   const Real groundg3t = groundg3j * groundg3j_4 + groundg3j_2 * groundg3j_3;
   const Real groundg3d = Real(1.0) / groundg3t;
-  const Real groundg3a = groundg3j_4 * groundg3d;
-  const Real groundg3a_2 = groundg3j_2 * groundg3d;
-  const Real groundg3a_3 = groundg3j_3 * groundg3d;
-  const Real groundg3a_4 = groundg3j * groundg3d;
-  const Real groundgc_7 = groundg3f_2 * groundg3a_2 + (groundgc_5 + groundg3f * groundg3a);
-  const Real groundgc_8 = groundg3f_2 * groundg3a_4 - (groundgc_6 + groundg3f * groundg3a_3);
+  const Real groundgc_7 = groundg3d * (groundg3f_2 * groundg3j_2) + (groundgc_5 + groundg3d * (groundg3f *
+      groundg3j_4));
+  const Real groundgc_8 = groundg3d * (groundg3f_2 * groundg3j) - (groundgc_6 + groundg3d * (groundg3f *
+      groundg3j_3));
   const Real expression_57 = model.wave * groundgc_7;
   Real expression_58, expression_62;
   detail::sine_cosine(expression_57, expression_58, expression_62);
@@ -598,20 +588,20 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real groundggu = expression_67 * groundgge_y + (groundgge_z - expression_64 * groundgge_x);
   const Real groundggr = detail::square_root(groundggu);
   const Real groundgo = Real(1.0) + expression_67 * expression_67;
-  const Real t382 = expression_64 * expression_64;
-  const Real groundgo_2 = groundgo + t382;
+  const Real t384 = expression_64 * expression_64;
+  const Real groundgo_2 = groundgo + t384;
   const Real groundgo_3 = Real(1.0) / detail::square_root(groundgo_2);
-  const Real t387 = state.y[3] * Real(0.5);
-  const Real t388 = state.y[4] * Real(0.5);
-  const Real t389 = state.y[5] * Real(0.5);
-  const Real t390 = state.y[6] * Real(0.5);
-  const Real t391 = q0r0_y + q0r0_y;
-  const Real t392 = q0r1_y + q0r1_y;
-  const Real t393 = q0r2_y + q0r2_y;
+  const Real t389 = state.y[3] * Real(0.5);
+  const Real t390 = state.y[4] * Real(0.5);
+  const Real t391 = state.y[5] * Real(0.5);
+  const Real t392 = state.y[6] * Real(0.5);
+  const Real t393 = q0r0_y + q0r0_y;
+  const Real t394 = q0r1_y + q0r1_y;
+  const Real t395 = q0r2_y + q0r2_y;
   const Real groundggi = Real(1.0) / groundggr;
-  const Real t395 = Real(0.5) * groundggi;
-  const Real t396 = model.radius * t395;
-  const Real t397 = groundgo_3 * t396;
+  const Real t397 = Real(0.5) * groundggi;
+  const Real t398 = model.radius * t397;
+  const Real t399 = groundgo_3 * t398;
   const Real t400 = q0d3 + q0d3;
   const Real t401 = Real(2.0) * state.y[3];
   const Real t402 = expression_64 * expression_67;
@@ -620,20 +610,20 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t407 = t402 + t402;
   const Real t411 = q0r0_y * t407 - (q0r2_y * t404 - expression_67 * t406);
   const Real t413 = expression_64 + expression_64;
-  const Real t416 = q0r2_y * t413 - (t382 * t391 + q0r1_y * t407);
+  const Real t416 = q0r1_y * t407 + (t384 * t393 - q0r2_y * t413);
   const Real t417 = q0r0_y * t413;
-  const Real t418 = t393 - t406;
+  const Real t418 = t395 - t406;
   const Real t419 = t417 - t418;
-  const Real t420 = t397 * t411;
-  const Real t421 = t397 * t416;
-  const Real t422 = t397 * t419;
+  const Real t420 = t399 * t411;
+  const Real t421 = t399 * t416;
+  const Real t422 = t399 * t419;
   const Real t423 = q0d1 + q0d1;
-  const Real t430 = q0d3 * t422 + q0d1 * t421;
-  const Real t435 = q0d1 * t422 - q0d3 * t421;
-  const Real t440 = t420 * t423 - (t401 * t422 + q0d2 * t421);
-  const Real t445 = t400 * t420 - (q0d2 * t422 - t401 * t421);
-  const Real t449 = t389 * t445 - (t387 * t440 - (t390 * t430 - t388 * t435));
-  const Real t453 = t387 * t445 + (t389 * t440 + (t388 * t430 + t390 * t435));
+  const Real t430 = q0d3 * t422 - q0d1 * t421;
+  const Real t435 = q0d1 * t422 + q0d3 * t421;
+  const Real t440 = t420 * t423 - (t401 * t422 - q0d2 * t421);
+  const Real t445 = t400 * t420 - (q0d2 * t422 + t401 * t421);
+  const Real t449 = t392 * t430 - t390 * t435 - (t389 * t440 - t391 * t445);
+  const Real t453 = t390 * t430 + t392 * t435 + (t391 * t440 + t389 * t445);
   const Real q022 = state.y[5] * q0d2;
   const Real q013 = state.y[4] * q0d3;
   const Real q002 = q0d2 * state.y[3];
@@ -645,7 +635,6 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real q0r2_z = t16 + q022;
   const Real groundggq_x = groundgge_x * groundggi;
   const Real groundggq_y = groundgge_y * groundggi;
-  const Real groundggq_z = groundgge_z * groundggi;
   const Real groundgo_4 = Real(1.0) / detail::square_root(groundgo);
   const Real groundgo_5 = groundgo_3 * groundgo_4;
   const Real groundgy_x = groundgo * groundgo_5;
@@ -653,7 +642,8 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real groundgy_z = expression_64 * groundgo_5;
   const Real groundgv_x = model.radius * groundggq_x;
   const Real groundgv_y = model.radius * groundggq_y;
-  const Real groundgv_z = model.radius * groundggq_z;
+  const Real t474 = model.radius * groundgge_z;
+  const Real groundgv_z = groundggi * t474;
   const Real t478 = groundgy_x * groundgv_y - groundgy_y * groundgv_x;
   const Real t482 = groundgy_x * groundgv_z - groundgy_z * groundgv_x;
   const Real t486 = groundgy_y * groundgv_z - groundgy_z * groundgv_y;
@@ -677,24 +667,24 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t547 = grounds2bn0_z * model.c11;
   const Real t550 = t449 * t545 + t453 * t547;
   const Real t554 = groundgo_4 * groundgo_4;
-  const Real t566 = Real(1.0) / (groundgo_2 * t528 * model.c13 + model.c11 * (t449 * t449 + t453 * t453) +
-      Real(4.9999999999999995e-11));
+  const Real t566 = Real(1.0) / (model.c11 * (t449 * t449 + t453 * t453) + (t528 * (groundgo_2 * model.c13) +
+      Real(4.9999999999999995e-11)));
   const Real t567 = t536 * t566;
   const Real t578 = t550 * t566;
   const Real t582 = t536 * t578 - (grounds1bn0_z * t547 + (grounds1bn0_x * t545 + grounds1bn0_y * t546));
-  const Real t584 = Real(1.0) / (model.c13 * (groundgy_z * groundgy_z + (groundgy_x * groundgy_x + groundgy_y
-      * groundgy_y)) - (t536 * t567 - (grounds1bn0_z * t533 + (grounds1bn0_x * t532 + grounds1bn0_y *
-      grounds1bn0_y * model.c12)) - Real(1.5000000000000002e-10)));
+  const Real t584 = Real(1.0) / (t536 * t567 - (grounds1bn0_x * t532 + (model.c13 * (groundgy_z * groundgy_z +
+      (groundgy_x * groundgy_x + groundgy_y * groundgy_y)) + Real(1.5000000000000002e-10)) + (grounds1bn0_y *
+      (grounds1bn0_y * model.c12) + grounds1bn0_z * t533)));
   const Real t585 = t582 * t584;
-  const Real t596 = Real(1.0) / (t582 * t585 + (t550 * t578 - (grounds2bn0_z * t547 + (grounds2bn0_y * t546 +
-      (grounds2bn0_x * t545 + model.c13 * (groundgo * t554))))) - Real(2.5e-10));
-  const Real t601 = t390 * state.z[5] + (t388 * state.z[3] + t389 * state.z[4]);
-  const Real t606 = t389 * state.z[5] + (t387 * state.z[3] - t390 * state.z[4]);
-  const Real t611 = t388 * state.z[5] - (t390 * state.z[3] + t387 * state.z[4]);
-  const Real t616 = t387 * state.z[5] - (t389 * state.z[3] - t388 * state.z[4]);
-  const Real expression_68 = expression_58 * expression_61 * model.c14;
+  const Real t596 = Real(1.0) / (t582 * t585 - (t550 * t578 - (grounds2bn0_x * t545 + (t554 * (groundgo *
+      model.c13) + Real(2.5e-10)) + (grounds2bn0_y * t546 + grounds2bn0_z * t547))));
+  const Real t601 = t392 * state.z[5] + (t390 * state.z[3] + t391 * state.z[4]);
+  const Real t606 = t391 * state.z[5] + (t389 * state.z[3] - t392 * state.z[4]);
+  const Real t611 = t390 * state.z[5] - (t392 * state.z[3] + t389 * state.z[4]);
+  const Real t616 = t389 * state.z[5] - (t391 * state.z[3] - t390 * state.z[4]);
+  const Real expression_68 = expression_61 * (expression_58 * model.c14);
   const Real expression_69 = expression_63 * expression_66;
-  const Real expression_70 = model.c9 * (expression_59 * expression_61);
+  const Real expression_70 = expression_59 * (model.c9 * expression_61);
   const Real groundggl = model.radius * groundggi;
   const Real groundggp = groundgs_xx - groundggq_x * groundggq_x;
   const Real groundggp_2 = groundgs_xy - groundggq_x * groundggq_y;
@@ -710,130 +700,121 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real groundggj_4 = Real(1.0) + groundggl * groundggk_4;
   const Real groundggt = groundggj * groundggj_4 - groundggj_2 * groundggj_3;
   const Real groundggd = Real(1.0) / groundggt;
-  const Real groundgga = groundggj_4 * groundggd;
-  const Real groundgga_2 = groundggj_2 * groundggd;
-  const Real groundgga_3 = groundggj_3 * groundggd;
-  const Real groundgga_4 = groundggj * groundggd;
-  const Real t655 = groundggi * groundggi;
-  const Real t657 = t423 * t606;
-  const Real t660 = q0d2 * t606 - q0d1 * t611;
-  const Real t662 = t400 * t616;
-  const Real t664 = q0d3 * t611 - q0d2 * t616;
-  const Real t665 = t401 * t616;
-  const Real t666 = t657 + t662;
-  const Real t670 = q0d3 * t601;
-  const Real t672 = t670 + (t660 - t665);
-  const Real t674 = t401 * t606 - q0d1 * t601;
-  const Real t675 = t664 - t674;
-  const Real t677 = q0r0_y * t666 + q0r1_y * t672;
-  const Real t683 = q0r2_y * t672 - q0r0_y * t675;
-  const Real t685 = q0r2_y * t666 - q0r1_y * t675;
-  const Real t686 = t393 * t675;
-  const Real t688 = expression_64 * t677 + (t406 * t666 - t685);
-  const Real t693 = t683 - (expression_67 * t677 + t417 * t672);
-  const Real t701 = t395 * t655 * (expression_64 * (t683 + t693) + (t686 + expression_67 * (t685 - t688)));
-  const Real t707 = state.z[1] + model.radius * (groundggi * t688 + groundgge_y * t701);
-  const Real t709 = state.z[0] + model.radius * (groundggi * t693 + groundgge_x * t701);
-  const Real t712 = groundgga * t709 - groundgga_2 * t707;
-  const Real t715 = groundgga_3 * t709 - groundgga_4 * t707;
-  const Real t721 = expression_69 * t715 - expression_68 * t712;
-  const Real t723 = expression_70 * t715 - expression_69 * t712;
-  const Real t728 = t404 * t723;
-  const Real t735 = Real(0.5) * (groundgo_4 * t554 * t728);
-  const Real t741 = t413 * t721;
-  const Real t744 = expression_64 * t723 - expression_67 * t721;
-  const Real t752 = Real(0.5) * ((t728 - t741) * (groundgo_3 * t528));
-  const Real t761 = groundgo_4 * t752 + groundgo_3 * t735;
-  const Real t789 = q0r1_y * state.z[4] - (q0r1_x * state.z[3] + q0r1_z * state.z[5]);
-  const Real t795 = q0r0_y * state.z[4] - (q0r0_x * state.z[3] - q0r0_z * state.z[5]);
-  const Real t798 = groundgv_y * t795 - (state.z[2] - groundgv_x * t789);
-  const Real t804 = q0r2_z * state.z[5] - (q0r2_x * state.z[3] + q0r2_y * state.z[4]);
-  const Real t819 = Real(0.5) * t430;
-  const Real t820 = Real(0.5) * t435;
-  const Real t821 = Real(0.5) * t445;
-  const Real t822 = Real(0.5) * t440;
-  const Real t832 = Real(2.0) * t422;
-  const Real t833 = Real(2.0) * t421;
-  const Real t839 = t420 * Real(4.0);
-  const Real t848 = t611 * (q0d2 + q0d2);
-  const Real t856 = t401 * t611 + q0d2 * t601;
-  const Real t860 = q0d1 * t616 + q0d3 * t606;
-  const Real t861 = t664 + t674;
-  const Real t868 = groundgv_x * groundgz_z;
-  const Real t874 = t665 + (t660 - t670);
-  const Real t891 = t392 * t723 - t404 * t666;
-  const Real t907 = groundgs_xy * t721 + (t688 + groundgs_yy * t723);
-  const Real t914 = expression_64 * t683 + (groundgs_xz * t721 + (expression_67 * t685 + (t686 - groundgs_yz *
-      t723)));
-  const Real t917 = groundgs_xx * t721 + (t693 + groundgs_xy * t723);
-  const Real t924 = t395 * (expression_64 * t917 + (t914 - (expression_67 * t907 + (groundgge_y * t723 +
-      groundgge_x * t721))));
-  const Real t929 = t655 * t924;
-  const Real t940 = t856 - t860;
-  const Real t941 = t856 + t860;
-  const Real t950 = groundggl * t917 + model.radius * (groundgge_x * t929);
-  const Real t953 = groundggl * t914 - model.radius * (groundgge_z * t929);
-  const Real t958 = t657 - t848;
-  const Real t959 = t662 - t848;
-  const Real t968 = model.radius * (groundggi * t907 + groundgge_y * t929);
-  const Real rww00 = state.z[4] * state.z[5];
-  const Real rww02 = state.z[3] * state.z[4];
-  const Real rdn0_x = rww00 * model.kdS00;
-  const Real rdn0_z = rww02 * model.kdS00;
-  const Real t999 = model.c11 * rdn0_x;
-  const Real t1000 = model.c11 * rdn0_z;
-  const Real t1011 = t611 * t833 + t601 * t832;
-  const Real t1018 = t601 * t833 - t611 * t832;
-  const Real t1036 = t616 * (t1018 + (Real(0.5) * (t430 * state.z[3] + t440 * state.z[4]) - (state.z[5] * t820
-      + (t616 * t839 - t1018)))) - (t606 * (t1011 + (state.z[5] * t819 + (state.z[4] * t821 + (state.z[3] *
-      t820 + (t606 * t839 + t1011))))) - (t453 * t1000 + (t449 * t999 + (groundgo_3 * model.c15 - ((t411 *
-      t666 - (t416 * t672 - t419 * t675)) * (t396 * t752 - model.radius * (t924 * (groundgo_3 * (groundggi *
-      t395)))) - (t666 * (t397 * (expression_67 * t891 - (t404 * t675 + (t418 * t723 - (t391 * t744 - t407 *
-      t672))))) - (t397 * t675 * (t413 * t672 + (t391 * t721 + (Real(2.0) * t675 - t891))) + ((Real(2.0) *
-      (t382 * t672) + (t407 * t666 + (t413 * t675 - (t393 * t721 - (t391 * t741 - t392 * t744))))) * (t397 *
-      t672) - (t601 * (state.z[5] * t821 + (state.z[3] * t822 - state.z[4] * t819)) + (t611 * (state.z[5] *
-      t822 + (state.z[4] * t820 - state.z[3] * t821)) + (state.z[0] * (groundgo_3 * t721 + expression_64 *
-      t752) - (state.z[2] * t752 - state.z[1] * (groundgo_3 * t723 - expression_67 * t752)))))))))))));
-  const Real t1055 = t567 * t1036 - (grounds1bn0_z * t1000 + (grounds1bn0_x * t999 + (groundgy_z * model.c15 -
-      ((groundgy_y * t795 + groundgy_x * t789) * t953 - (t478 * state.z[5] * t958 + (t486 * state.z[5] * t940
-      - (t482 * state.z[5] * t861 + ((groundgy_z * t795 + groundgy_x * t804) * t968 - (t482 * state.z[3] *
-      t874 + (t486 * state.z[3] * t959 - ((groundgy_z * t789 - groundgy_y * t804) * t950 + (t478 * state.z[3]
-      * t941 + ((groundgo_5 * t728 - groundgo * t761) * (groundgv_y * t804 - (state.z[0] + groundgv_z * t789))
-      + (t672 * (t486 * state.z[4]) + (t666 * (t482 * state.z[4]) - (t675 * (t478 * state.z[4]) + ((groundgo_5
-      * t721 + expression_64 * t761) * t798 - (t402 * t761 - groundgo_5 * t744) * (groundgv_z * t795 +
-      (state.z[1] + groundgv_x * t804)))))))))))))))))));
-  const Real t1070 = t596 * (t585 * t1055 + (t578 * t1036 - (grounds2bn0_z * t1000 + (grounds2bn0_x * t999 -
-      (groundgz_z * model.c15 - ((groundgo_4 * t723 - expression_67 * t735) * t798 - (t795 * (groundgo_4 *
-      t953 + (groundgv_z * t735 - groundgz_z * t968)) - (state.z[4] * (groundgv_x * (q0r2_y * t735 -
-      groundgo_4 * t675) + (t513 * t950 - (t666 * t868 + t503 * t672))) - (state.z[5] * (groundgv_x * (q0r2_z
-      * t735 + groundgo_4 * t958) - (t503 * t940 - (t519 * t950 + t861 * t868))) + (state.z[1] * t735 -
-      state.z[3] * (t868 * t874 + (t503 * t959 + (groundgv_x * (q0r2_x * t735 + groundgo_4 * t941) - t507 *
-      t950)))))))))))));
-  const Real t1072 = t584 * t1055 - t585 * t1070;
-  const Real t1076 = t578 * t1070 - (t566 * t1036 + t567 * t1072);
-  const Real t1077 = Real(4.9999999999999995e-11) * t1076;
-  const Real t1081 = Real(1.5000000000000002e-10) * t1072 - t567 * t1077;
-  const Real t1088 = t596 * (t585 * t1081 - (Real(2.5e-10) * t1070 + t578 * t1077));
-  const Real t1090 = t584 * t1081 - t585 * t1088;
-  const Real t1095 = t578 * t1088 - (t567 * t1090 - (t1076 + t566 * t1077));
-  const Real t1096 = t1072 + t1090;
-  const Real t1097 = t1070 + t1088;
-  zdot[0] = model.c13 * (expression_64 * groundgo_3 * t1095 - groundgy_x * t1096);
-  zdot[1] = model.c13 * (groundgo_4 * t1097 - (expression_67 * groundgo_3 * t1095 + groundgy_y * t1096));
-  zdot[2] = -(model.c13 * (groundgz_z * t1097 + (groundgo_3 * t1095 + groundgy_z * t1096) + model.q_2));
-  zdot[3] = -(model.c11 * (grounds2bn0_x * t1097 - (grounds1bn0_x * t1096 + (rdn0_x + t449 * t1095))));
-  zdot[4] = -(model.c12 * (grounds1bn0_y * t1096 - grounds2bn0_y * t1097));
-  zdot[5] = model.c11 * (grounds2bn0_z * t1097 - (grounds1bn0_z * t1096 + (rdn0_z + t453 * t1095)));
+  const Real t651 = groundggi * groundggi;
+  const Real t653 = t423 * t606;
+  const Real t656 = q0d2 * t606 - q0d1 * t611;
+  const Real t658 = t400 * t616;
+  const Real t660 = q0d3 * t611 - q0d2 * t616;
+  const Real t662 = t653 + t658;
+  const Real t667 = t401 * t616 - q0d3 * t601;
+  const Real t668 = t656 - t667;
+  const Real t670 = t401 * t606 - q0d1 * t601;
+  const Real t671 = t660 - t670;
+  const Real t673 = q0r0_y * t662 + q0r1_y * t668;
+  const Real t678 = q0r2_y * t668 - q0r0_y * t671;
+  const Real t680 = q0r2_y * t662 - q0r1_y * t671;
+  const Real t681 = t395 * t671;
+  const Real t683 = t406 * t662 + (expression_64 * t673 - t680);
+  const Real t688 = t417 * t668 + (expression_67 * t673 - t678);
+  const Real t697 = t651 * (t397 * (expression_67 * (t680 - t683) + (t681 + expression_64 * (t678 - t688))));
+  const Real t703 = state.z[1] + model.radius * (groundggi * t683 + groundgge_y * t697);
+  const Real t705 = state.z[0] - model.radius * (groundggi * t688 - groundgge_x * t697);
+  const Real t710 = groundggd * (groundggj_4 * t705) - groundggd * (groundggj_2 * t703);
+  const Real t715 = groundggd * (groundggj_3 * t705) - groundggd * (groundggj * t703);
+  const Real t719 = expression_69 * t715 - expression_68 * t710;
+  const Real t721 = expression_70 * t715 - expression_69 * t710;
+  const Real t726 = t404 * t721;
+  const Real t734 = t726 * (t554 * (Real(0.5) * groundgo_4));
+  const Real t740 = t413 * t719;
+  const Real t743 = expression_64 * t721 - expression_67 * t719;
+  const Real t751 = (t726 - t740) * (t528 * (groundgo_3 * Real(0.5)));
+  const Real t760 = groundgo_4 * t751 + groundgo_3 * t734;
+  const Real t781 = q0r1_y * state.z[4] - (q0r1_x * state.z[3] + q0r1_z * state.z[5]);
+  const Real t786 = q0r0_x * state.z[3] - (q0r0_z * state.z[5] + q0r0_y * state.z[4]);
+  const Real t789 = groundgv_y * t786 + (state.z[2] - groundgv_x * t781);
+  const Real t794 = q0r2_z * state.z[5] - (q0r2_x * state.z[3] + q0r2_y * state.z[4]);
+  const Real t809 = Real(0.5) * t430;
+  const Real t810 = Real(0.5) * t435;
+  const Real t811 = Real(0.5) * t445;
+  const Real t812 = Real(0.5) * t440;
+  const Real t822 = Real(2.0) * t422;
+  const Real t823 = Real(2.0) * t421;
+  const Real t829 = t420 * Real(4.0);
+  const Real t838 = t611 * (q0d2 + q0d2);
+  const Real t846 = t401 * t611 + q0d2 * t601;
+  const Real t850 = q0d1 * t616 + q0d3 * t606;
+  const Real t851 = t660 + t670;
+  const Real t859 = groundgv_x * groundgz_z;
+  const Real t865 = t656 + t667;
+  const Real t882 = t394 * t721 - t404 * t662;
+  const Real t899 = groundgs_xy * t719 + (t683 + groundgs_yy * t721);
+  const Real t906 = groundgs_xz * t719 - (groundgs_yz * t721 - (expression_64 * t678 + (t681 + expression_67 *
+      t680)));
+  const Real t909 = groundgs_xx * t719 - (t688 - groundgs_xy * t721);
+  const Real t916 = t397 * (t906 - (groundgge_y * t721 + groundgge_x * t719) - (expression_67 * t899 -
+      expression_64 * t909));
+  const Real t922 = t651 * t916;
+  const Real t933 = t846 - t850;
+  const Real t934 = t846 + t850;
+  const Real t944 = groundggl * t909 + t922 * (model.radius * groundgge_x);
+  const Real t946 = groundggl * t906 - t474 * t922;
+  const Real t951 = t653 - t838;
+  const Real t952 = t658 - t838;
+  const Real t963 = model.radius * (groundggi * t899 + groundgge_y * t922);
+  const Real rdn0_x = model.kdS00 * (state.z[4] * state.z[5]);
+  const Real rdn0_z = model.kdS00 * (state.z[3] * state.z[4]);
+  const Real t997 = model.c11 * rdn0_x;
+  const Real t998 = model.c11 * rdn0_z;
+  const Real t1009 = t611 * t823 - t601 * t822;
+  const Real t1016 = t601 * t823 + t611 * t822;
+  const Real t1034 = (t411 * t662 + (t416 * t668 + t419 * t671)) * (t398 * t751 - t916 * (t397 * (groundggi *
+      (model.radius * groundgo_3)))) - (state.z[0] * (groundgo_3 * t719 + expression_64 * t751) +
+      (expression_67 * t882 + (t393 * t743 - (t418 * t721 + (t404 * t671 + t407 * t668)))) * (t399 * t662) +
+      ((t394 * t743 - (t393 * t740 - (t395 * t719 - (t407 * t662 + (t413 * t671 + t384 * (Real(2.0) *
+      t668)))))) * (t399 * t668) + (t882 - (t393 * t719 + (Real(2.0) * t671 + t413 * t668))) * (t399 * t671) +
+      (state.z[1] * (groundgo_3 * t721 - expression_67 * t751) - (state.z[2] * t751 - (t616 * (Real(0.5) *
+      (t430 * state.z[3] + t440 * state.z[4]) - (t616 * t829 + t1016 + (state.z[5] * t810 + t1016))) +
+      (groundgo_3 * model.c15 + t449 * t997) + (t611 * (state.z[5] * t812 + (state.z[4] * t810 - state.z[3] *
+      t811)) + t453 * t998 + (t601 * (state.z[5] * t811 + (state.z[3] * t812 - state.z[4] * t809)) - t606 *
+      (state.z[5] * t809 + (t606 * t829 - t1009) + (state.z[4] * t811 + (state.z[3] * t810 - t1009))))))))));
+  const Real t1053 = (groundgy_z * t786 - groundgy_x * t794) * t963 + (groundgy_y * t786 - groundgy_x * t781)
+      * t946 + (t567 * t1034 - ((groundgy_z * t781 - groundgy_y * t794) * t944 + ((groundgo_5 * t719 +
+      expression_64 * t760) * t789 - (grounds1bn0_x * t997 - (t478 * (state.z[3] * t934) - t486 * (state.z[3]
+      * t952) - (t482 * (state.z[3] * t865) - t482 * (state.z[5] * t851))) + (grounds1bn0_z * t998 + (t486 *
+      (state.z[5] * t933) + t478 * (state.z[5] * t951) + (t478 * (state.z[4] * t671) + groundgy_z * model.c15
+      - (t482 * (state.z[4] * t662) + t486 * (state.z[4] * t668)))))) + ((t402 * t760 - groundgo_5 * t743) *
+      (groundgv_x * t794 + (state.z[1] - groundgv_z * t786)) + (groundgo_5 * t726 - groundgo * t760) *
+      (groundgv_y * t794 - (state.z[0] + groundgv_z * t781))))));
+  const Real t1068 = t596 * (t786 * (groundgz_z * t963 - (groundgv_z * t734 + groundgo_4 * t946)) +
+      (state.z[3] * (t507 * t944 - (groundgv_x * (q0r2_x * t734 + groundgo_4 * t934) + (t503 * t952 + t859 *
+      t865))) + state.z[5] * (t519 * t944 + (groundgv_x * (q0r2_z * t734 + groundgo_4 * t951) + (t851 * t859 -
+      t503 * t933)))) + (t585 * t1053 - (state.z[4] * (t513 * t944 + (groundgv_x * (q0r2_y * t734 - groundgo_4
+      * t671) - (t662 * t859 + t503 * t668))) + (t578 * t1034 - ((groundgo_4 * t721 - expression_67 * t734) *
+      t789 + (state.z[1] * t734 - (grounds2bn0_z * t998 - (groundgz_z * model.c15 - grounds2bn0_x *
+      t997))))))));
+  const Real t1070 = t584 * t1053 - t585 * t1068;
+  const Real t1074 = t567 * t1070 - (t566 * t1034 - t578 * t1068);
+  const Real t1075 = Real(4.9999999999999995e-11) * t1074;
+  const Real t1079 = Real(1.5000000000000002e-10) * t1070 + t567 * t1075;
+  const Real t1086 = t596 * (t585 * t1079 - (Real(2.5e-10) * t1068 + t578 * t1075));
+  const Real t1088 = t584 * t1079 - t585 * t1086;
+  const Real t1093 = t567 * t1088 + (t578 * t1086 - (t1074 + t566 * t1075));
+  const Real t1094 = t1070 - t1088;
+  const Real t1095 = t1068 - t1086;
+  zdot[0] = model.c13 * (t1093 * (expression_64 * groundgo_3) - groundgy_x * t1094);
+  zdot[1] = -(model.c13 * (t1093 * (expression_67 * groundgo_3) + (groundgy_y * t1094 + groundgo_4 * t1095)));
+  zdot[2] = -(model.c13 * (groundgo_3 * t1093 + (groundgy_z * t1094 - (groundgz_z * t1095 - model.q_2))));
+  zdot[3] = model.c11 * (t449 * t1093 + (grounds1bn0_x * t1094 + (rdn0_x + grounds2bn0_x * t1095)));
+  zdot[4] = -(model.c12 * (grounds1bn0_y * t1094 + grounds2bn0_y * t1095));
+  zdot[5] = -(model.c11 * (t453 * t1093 + (grounds1bn0_z * t1094 + (rdn0_z + grounds2bn0_z * t1095))));
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[6], Real
     (&tau)[6]) noexcept {
-  const Real aww00 = state.z[4] * state.z[5];
-  const Real aww02 = state.z[3] * state.z[4];
-  const Real adn0_x = zdot[3] * model.S0b_zz_2 - aww00 * model.kdS00;
+  const Real adn0_x = zdot[3] * model.S0b_zz_2 - model.kdS00 * (state.z[4] * state.z[5]);
   const Real adn0_y = zdot[4] * model.Jy0;
-  const Real adn0_z = zdot[5] * model.S0b_zz_2 + aww02 * model.kdS00;
+  const Real adn0_z = zdot[5] * model.S0b_zz_2 + model.kdS00 * (state.z[3] * state.z[4]);
   const Real fall0_z = zdot[2] + Real(9.81);
   const Real tauf0 = zdot[0] * model.mass;
   const Real tauf1 = zdot[1] * model.mass;
@@ -848,7 +829,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
 
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept {
-  const Real Tfree = (state.z[4] * state.z[4] * model.Jy0 + (state.z[3] * state.z[3] + state.z[5] *
+  const Real Tfree = (model.Jy0 * (state.z[4] * state.z[4]) + (state.z[3] * state.z[3] + state.z[5] *
       state.z[5]) * model.S0b_zz) * Real(0.5) + (state.z[2] * state.z[2] + (state.z[0] * state.z[0] +
       state.z[1] * state.z[1])) * model.c17;
   return Tfree;
@@ -863,7 +844,7 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
 template <class Real> JOURDAIN_FUNCTION
 void outputs(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Outputs<Real>& result)
     noexcept {
-  const Real Tfree = (state.z[4] * state.z[4] * model.Jy0 + (state.z[3] * state.z[3] + state.z[5] *
+  const Real Tfree = (model.Jy0 * (state.z[4] * state.z[4]) + (state.z[3] * state.z[3] + state.z[5] *
       state.z[5]) * model.S0b_zz) * Real(0.5) + (state.z[2] * state.z[2] + (state.z[0] * state.z[0] +
       state.z[1] * state.z[1])) * model.c17;
   const Real V = state.y[2] * model.q_2;
@@ -901,16 +882,16 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   Real expression_10, expression_5;
   detail::sine_cosine(expression_4, expression_10, expression_5);
   const Real expression_6 = expression_3 * expression_5;
-  const Real expression_8 = expression_5 * expression_7 * model.c7;
+  const Real expression_8 = expression_7 * (expression_5 * model.c7);
   const Real expression_9 = expression_7 * model.hill;
   const Real expression_11 = model.wave * expression_10;
   const Real expression_12 = expression_9 * expression_11;
   const Real expression_13 = expression_3 * expression_11;
-  const Real expression_14 = expression_5 * expression_9 * model.c9;
+  const Real expression_14 = expression_9 * (expression_5 * model.c9);
   const Real groundg0e_x = groundgs_xy * expression_12 - (groundgs_xz + groundgs_xx * expression_6);
   const Real groundg0e_y = groundgs_yy * expression_12 + (groundgs_yz - groundgs_xy * expression_6);
-  const Real groundg0u = expression_6 * (groundgs_xz - groundg0e_x) + (groundgs_zz + expression_12 *
-      (groundgs_yz + groundg0e_y));
+  const Real groundg0u = expression_12 * (groundgs_yz + groundg0e_y) + (groundgs_zz + expression_6 *
+      (groundgs_xz - groundg0e_x));
   const Real groundg0r = detail::square_root(groundg0u);
   const Real groundg0i = Real(1.0) / groundg0r;
   const Real groundg0q_x = groundg0e_x * groundg0i;
@@ -932,12 +913,10 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real groundg0j_4 = Real(1.0) + groundg0l * groundg0k_4;
   const Real groundg0t = groundg0j * groundg0j_4 - groundg0j_2 * groundg0j_3;
   const Real groundg0d = Real(1.0) / groundg0t;
-  const Real groundg0a = groundg0j_4 * groundg0d;
-  const Real groundg0a_2 = groundg0j_2 * groundg0d;
-  const Real groundg0a_3 = groundg0j_3 * groundg0d;
-  const Real groundg0a_4 = groundg0j * groundg0d;
-  const Real groundgc = groundg0f_2 * groundg0a_2 + (state.y[0] - groundg0f * groundg0a);
-  const Real groundgc_2 = groundg0f_2 * groundg0a_4 - (state.y[1] + groundg0f * groundg0a_3);
+  const Real groundgc = groundg0d * (groundg0f_2 * groundg0j_2) + (state.y[0] - groundg0d * (groundg0f *
+      groundg0j_4));
+  const Real groundgc_2 = groundg0d * (groundg0f_2 * groundg0j) - (state.y[1] + groundg0d * (groundg0f *
+      groundg0j_3));
   const Real expression_15 = model.wave * groundgc;
   Real expression_21, expression_16;
   detail::sine_cosine(expression_15, expression_21, expression_16);
@@ -946,17 +925,17 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   Real expression_24, expression_19;
   detail::sine_cosine(expression_18, expression_24, expression_19);
   const Real expression_20 = expression_17 * expression_19;
-  const Real expression_22 = model.c7 * (expression_19 * expression_21);
+  const Real expression_22 = expression_21 * (model.c7 * expression_19);
   const Real expression_23 = model.hill * expression_21;
   const Real expression_25 = model.wave * expression_24;
   const Real expression_26 = expression_23 * expression_25;
   const Real expression_27 = expression_17 * expression_25;
-  const Real expression_28 = model.c9 * (expression_19 * expression_23);
+  const Real expression_28 = expression_23 * (model.c9 * expression_19);
   const Real groundg1e_x = groundgs_xy * expression_26 + (groundgs_xz + groundgs_xx * expression_20);
   const Real groundg1e_y = groundgs_yy * expression_26 - (groundgs_yz - groundgs_xy * expression_20);
-  const Real groundg1u = expression_20 * (groundgs_xz + groundg1e_x) + (groundgs_zz - expression_26 *
-      (groundgs_yz - groundg1e_y));
-  const Real groundg1r = detail::square_root(groundg1u);
+  const Real groundg1u = expression_26 * (groundgs_yz - groundg1e_y) - (groundgs_zz + expression_20 *
+      (groundgs_xz + groundg1e_x));
+  const Real groundg1r = detail::square_root(-groundg1u);
   const Real groundg1i = Real(1.0) / groundg1r;
   const Real groundg1q_x = groundg1e_x * groundg1i;
   const Real groundg1q_y = groundg1e_y * groundg1i;
@@ -966,23 +945,21 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real groundg1f_2 = model.radius * groundg1q_y + (state.y[1] + groundgc_2);
   const Real groundg1p_2 = groundgs_xy - groundg1q_x * groundg1q_y;
   const Real groundg1p_3 = groundgs_yy - groundg1q_y * groundg1q_y;
-  const Real t160 = expression_27 * groundg1p_2;
-  const Real groundg1k = expression_22 * groundg1p - t160;
+  const Real t161 = expression_27 * groundg1p_2;
+  const Real groundg1k = expression_22 * groundg1p - t161;
   const Real groundg1j = Real(1.0) + groundg1l * groundg1k;
   const Real groundg1k_2 = expression_27 * groundg1p - expression_28 * groundg1p_2;
   const Real groundg1j_2 = groundg1l * groundg1k_2;
   const Real groundg1k_3 = expression_22 * groundg1p_2 - expression_27 * groundg1p_3;
   const Real groundg1j_3 = groundg1l * groundg1k_3;
-  const Real groundg1k_4 = t160 - expression_28 * groundg1p_3;
+  const Real groundg1k_4 = t161 - expression_28 * groundg1p_3;
   const Real groundg1j_4 = Real(1.0) - groundg1l * groundg1k_4;
   const Real groundg1t = groundg1j * groundg1j_4 + groundg1j_2 * groundg1j_3;
   const Real groundg1d = Real(1.0) / groundg1t;
-  const Real groundg1a = groundg1j_4 * groundg1d;
-  const Real groundg1a_2 = groundg1j_2 * groundg1d;
-  const Real groundg1a_3 = groundg1j_3 * groundg1d;
-  const Real groundg1a_4 = groundg1j * groundg1d;
-  const Real groundgc_3 = groundg1f_2 * groundg1a_2 + (groundgc + groundg1f * groundg1a);
-  const Real groundgc_4 = groundg1f_2 * groundg1a_4 - (groundgc_2 + groundg1f * groundg1a_3);
+  const Real groundgc_3 = groundg1d * (groundg1f_2 * groundg1j_2) + (groundgc + groundg1d * (groundg1f *
+      groundg1j_4));
+  const Real groundgc_4 = groundg1d * (groundg1f_2 * groundg1j) - (groundgc_2 + groundg1d * (groundg1f *
+      groundg1j_3));
   const Real expression_29 = model.wave * groundgc_3;
   Real expression_35, expression_30;
   detail::sine_cosine(expression_29, expression_35, expression_30);
@@ -991,16 +968,16 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   Real expression_38, expression_33;
   detail::sine_cosine(expression_32, expression_38, expression_33);
   const Real expression_34 = expression_31 * expression_33;
-  const Real expression_36 = model.c7 * (expression_33 * expression_35);
+  const Real expression_36 = expression_35 * (model.c7 * expression_33);
   const Real expression_37 = model.hill * expression_35;
   const Real expression_39 = model.wave * expression_38;
   const Real expression_40 = expression_37 * expression_39;
   const Real expression_41 = expression_31 * expression_39;
-  const Real expression_42 = model.c9 * (expression_33 * expression_37);
+  const Real expression_42 = expression_37 * (model.c9 * expression_33);
   const Real groundg2e_x = groundgs_xy * expression_40 - (groundgs_xz + groundgs_xx * expression_34);
   const Real groundg2e_y = groundgs_yy * expression_40 + (groundgs_yz - groundgs_xy * expression_34);
-  const Real groundg2u = expression_34 * (groundgs_xz - groundg2e_x) + (groundgs_zz + expression_40 *
-      (groundgs_yz + groundg2e_y));
+  const Real groundg2u = expression_40 * (groundgs_yz + groundg2e_y) + (groundgs_zz + expression_34 *
+      (groundgs_xz - groundg2e_x));
   const Real groundg2r = detail::square_root(groundg2u);
   const Real groundg2i = Real(1.0) / groundg2r;
   const Real groundg2q_x = groundg2e_x * groundg2i;
@@ -1011,23 +988,21 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real groundg2f_2 = model.radius * groundg2q_y - (state.y[1] - groundgc_4);
   const Real groundg2p_2 = groundgs_xy - groundg2q_x * groundg2q_y;
   const Real groundg2p_3 = groundgs_yy - groundg2q_y * groundg2q_y;
-  const Real t240 = expression_41 * groundg2p_2;
-  const Real groundg2k = expression_36 * groundg2p + t240;
+  const Real t241 = expression_41 * groundg2p_2;
+  const Real groundg2k = expression_36 * groundg2p + t241;
   const Real groundg2j = Real(1.0) + groundg2l * groundg2k;
   const Real groundg2k_2 = expression_41 * groundg2p + expression_42 * groundg2p_2;
   const Real groundg2j_2 = groundg2l * groundg2k_2;
   const Real groundg2k_3 = expression_36 * groundg2p_2 + expression_41 * groundg2p_3;
   const Real groundg2j_3 = groundg2l * groundg2k_3;
-  const Real groundg2k_4 = t240 + expression_42 * groundg2p_3;
+  const Real groundg2k_4 = t241 + expression_42 * groundg2p_3;
   const Real groundg2j_4 = Real(1.0) + groundg2l * groundg2k_4;
   const Real groundg2t = groundg2j * groundg2j_4 - groundg2j_2 * groundg2j_3;
   const Real groundg2d = Real(1.0) / groundg2t;
-  const Real groundg2a = groundg2j_4 * groundg2d;
-  const Real groundg2a_2 = groundg2j_2 * groundg2d;
-  const Real groundg2a_3 = groundg2j_3 * groundg2d;
-  const Real groundg2a_4 = groundg2j * groundg2d;
-  const Real groundgc_5 = groundg2f_2 * groundg2a_2 + (groundgc_3 - groundg2f * groundg2a);
-  const Real groundgc_6 = groundg2f_2 * groundg2a_4 - (groundgc_4 + groundg2f * groundg2a_3);
+  const Real groundgc_5 = groundg2d * (groundg2f_2 * groundg2j_2) + (groundgc_3 - groundg2d * (groundg2f *
+      groundg2j_4));
+  const Real groundgc_6 = groundg2d * (groundg2f_2 * groundg2j) - (groundgc_4 + groundg2d * (groundg2f *
+      groundg2j_3));
   const Real expression_43 = model.wave * groundgc_5;
   Real expression_49, expression_44;
   detail::sine_cosine(expression_43, expression_49, expression_44);
@@ -1036,17 +1011,17 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   Real expression_52, expression_47;
   detail::sine_cosine(expression_46, expression_52, expression_47);
   const Real expression_48 = expression_45 * expression_47;
-  const Real expression_50 = model.c7 * (expression_47 * expression_49);
+  const Real expression_50 = expression_49 * (model.c7 * expression_47);
   const Real expression_51 = model.hill * expression_49;
   const Real expression_53 = model.wave * expression_52;
   const Real expression_54 = expression_51 * expression_53;
   const Real expression_55 = expression_45 * expression_53;
-  const Real expression_56 = model.c9 * (expression_47 * expression_51);
+  const Real expression_56 = expression_51 * (model.c9 * expression_47);
   const Real groundg3e_x = groundgs_xy * expression_54 + (groundgs_xz + groundgs_xx * expression_48);
   const Real groundg3e_y = groundgs_yy * expression_54 - (groundgs_yz - groundgs_xy * expression_48);
-  const Real groundg3u = expression_48 * (groundgs_xz + groundg3e_x) + (groundgs_zz - expression_54 *
-      (groundgs_yz - groundg3e_y));
-  const Real groundg3r = detail::square_root(groundg3u);
+  const Real groundg3u = expression_54 * (groundgs_yz - groundg3e_y) - (groundgs_zz + expression_48 *
+      (groundgs_xz + groundg3e_x));
+  const Real groundg3r = detail::square_root(-groundg3u);
   const Real groundg3i = Real(1.0) / groundg3r;
   const Real groundg3q_x = groundg3e_x * groundg3i;
   const Real groundg3q_y = groundg3e_y * groundg3i;
@@ -1056,23 +1031,19 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real groundg3f_2 = model.radius * groundg3q_y + (state.y[1] + groundgc_6);
   const Real groundg3p_2 = groundgs_xy - groundg3q_x * groundg3q_y;
   const Real groundg3p_3 = groundgs_yy - groundg3q_y * groundg3q_y;
-  const Real t320 = expression_55 * groundg3p_2;
-  const Real groundg3k = expression_50 * groundg3p - t320;
+  const Real t322 = expression_55 * groundg3p_2;
+  const Real groundg3k = expression_50 * groundg3p - t322;
   const Real groundg3j = Real(1.0) + groundg3l * groundg3k;
   const Real groundg3k_2 = expression_55 * groundg3p - expression_56 * groundg3p_2;
   const Real groundg3j_2 = groundg3l * groundg3k_2;
   const Real groundg3k_3 = expression_50 * groundg3p_2 - expression_55 * groundg3p_3;
   const Real groundg3j_3 = groundg3l * groundg3k_3;
-  const Real groundg3k_4 = t320 - expression_56 * groundg3p_3;
+  const Real groundg3k_4 = t322 - expression_56 * groundg3p_3;
   const Real groundg3j_4 = Real(1.0) - groundg3l * groundg3k_4;
   const Real groundg3t = groundg3j * groundg3j_4 + groundg3j_2 * groundg3j_3;
   const Real groundg3d = Real(1.0) / groundg3t;
-  const Real groundg3a = groundg3j_4 * groundg3d;
-  const Real groundg3a_2 = groundg3j_2 * groundg3d;
-  const Real groundg3a_3 = groundg3j_3 * groundg3d;
-  const Real groundg3a_4 = groundg3j * groundg3d;
-  const Real groundgm = groundg3f * groundg3a + groundg3f_2 * groundg3a_2;
-  const Real groundgm_2 = groundg3f * groundg3a_3 - groundg3f_2 * groundg3a_4;
+  const Real groundgm = groundg3d * (groundg3f * groundg3j_4) + groundg3d * (groundg3f_2 * groundg3j_2);
+  const Real groundgm_2 = groundg3d * (groundg3f * groundg3j_3) - groundg3d * (groundg3f_2 * groundg3j);
   const Real groundgc_7 = groundgc_5 + groundgm;
   const Real groundgc_8 = groundgc_6 + groundgm_2;
   const Real expression_57 = model.wave * groundgc_7;
@@ -1093,34 +1064,34 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real groundggu = expression_68 * groundgge_y - (groundgge_z - expression_65 * groundgge_x);
   const Real groundggr = detail::square_root(groundggu);
   const Real groundgo = Real(1.0) + expression_68 * expression_68;
-  const Real t383 = expression_65 * expression_65;
-  const Real groundgo_2 = groundgo + t383;
+  const Real t385 = expression_65 * expression_65;
+  const Real groundgo_2 = groundgo + t385;
   const Real groundgo_3 = Real(1.0) / detail::square_root(groundgo_2);
-  const Real groundgv = state.y[2] - (model.radius * groundggr + (expression_68 * (state.y[1] + groundgc_8) +
-      (expression_62 + expression_65 * (state.y[0] - groundgc_7))));
+  const Real groundgv = model.radius * groundggr + (expression_62 - state.y[2] + (expression_65 * (state.y[0]
+      - groundgc_7) + expression_68 * (state.y[1] + groundgc_8)));
   const Real g_ground = groundgo_3 * groundgv;
-  const Real t399 = state.y[3] * Real(0.5);
-  const Real t400 = state.y[4] * Real(0.5);
-  const Real t401 = state.y[5] * Real(0.5);
-  const Real t402 = state.y[6] * Real(0.5);
+  const Real t401 = state.y[3] * Real(0.5);
+  const Real t402 = state.y[4] * Real(0.5);
+  const Real t403 = state.y[5] * Real(0.5);
+  const Real t404 = state.y[6] * Real(0.5);
   const Real groundggi = Real(1.0) / groundggr;
-  const Real t407 = groundgo_3 * groundggi * model.c18;
-  const Real t408 = expression_65 * groundgo_3;
-  const Real t409 = expression_68 * groundgo_3;
-  const Real t410 = Real(2.0) * state.y[3];
-  const Real t413 = expression_68 + expression_68;
-  const Real t414 = q0r1_y * t413;
-  const Real t416 = expression_65 + expression_65;
-  const Real t424 = t407 * (q0r2_y * t416 - (t383 * (q0r0_y + q0r0_y) - expression_65 * t414));
-  const Real t425 = t407 * (q0r0_y * t416 - (t414 + (q0r2_y + q0r2_y)));
-  const Real t427 = q0d1 * t425;
-  const Real t428 = q0d3 * t425;
-  const Real t432 = t428 + q0d1 * t424;
-  const Real t437 = t427 - q0d3 * t424;
-  const Real t442 = t413 * t427 + (t410 * t425 + q0d2 * t424);
-  const Real t447 = t413 * t428 + (q0d2 * t425 - t410 * t424);
-  const Real t451 = t401 * t447 - (t399 * t442 + (t402 * t432 - t400 * t437));
-  const Real t455 = t399 * t447 + (t401 * t442 - (t400 * t432 + t402 * t437));
+  const Real t409 = groundggi * (groundgo_3 * model.c18);
+  const Real t410 = expression_65 * groundgo_3;
+  const Real t411 = expression_68 * groundgo_3;
+  const Real t412 = Real(2.0) * state.y[3];
+  const Real t414 = expression_68 + expression_68;
+  const Real t415 = q0r1_y * t414;
+  const Real t417 = expression_65 + expression_65;
+  const Real t425 = t409 * (expression_65 * t415 - (t385 * (q0r0_y + q0r0_y) - q0r2_y * t417));
+  const Real t426 = t409 * (q0r0_y * t417 - (t415 + (q0r2_y + q0r2_y)));
+  const Real t428 = q0d1 * t426;
+  const Real t429 = q0d3 * t426;
+  const Real t433 = t429 + q0d1 * t425;
+  const Real t438 = t428 - q0d3 * t425;
+  const Real t443 = t414 * t428 + (t412 * t426 + q0d2 * t425);
+  const Real t448 = t414 * t429 + (q0d2 * t426 - t412 * t425);
+  const Real t452 = t404 * t433 - t402 * t438 + (t401 * t443 - t403 * t448);
+  const Real t456 = t402 * t433 + t404 * t438 - (t403 * t443 + t401 * t448);
   const Real q022 = state.y[5] * q0d2;
   const Real q013 = state.y[4] * q0d3;
   const Real q002 = q0d2 * state.y[3];
@@ -1132,81 +1103,80 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real q0r2_z = t16 + q022;
   const Real groundggq_x = groundgge_x * groundggi;
   const Real groundggq_y = groundgge_y * groundggi;
-  const Real groundggq_z = groundgge_z * groundggi;
   const Real groundgo_4 = Real(1.0) / detail::square_root(groundgo);
   const Real groundgo_5 = groundgo_3 * groundgo_4;
   const Real groundgy_x = groundgo * groundgo_5;
-  const Real groundgy_y = expression_65 * expression_68 * groundgo_5;
+  const Real groundgy_y = groundgo_5 * (expression_65 * expression_68);
   const Real groundgy_z = expression_65 * groundgo_5;
   const Real groundgv_x = model.radius * groundggq_x;
   const Real groundgv_y = model.radius * groundggq_y;
-  const Real groundgv_z = model.radius * groundggq_z;
-  const Real t480 = groundgy_x * groundgv_y + groundgy_y * groundgv_x;
-  const Real t484 = groundgy_x * groundgv_z - groundgy_z * groundgv_x;
-  const Real t488 = groundgy_y * groundgv_z + groundgy_z * groundgv_y;
-  const Real grounds1bn0_x = q0r0_x * t488 + (q0r2_x * t480 - q0r1_x * t484);
-  const Real grounds1bn0_y = q0r0_y * t488 - (q0r2_y * t480 + q0r1_y * t484);
-  const Real grounds1bn0_z = q0r0_z * t488 + (q0r2_z * t480 + q0r1_z * t484);
+  const Real groundgv_z = groundggi * (model.radius * groundgge_z);
+  const Real t482 = groundgy_x * groundgv_y + groundgy_y * groundgv_x;
+  const Real t486 = groundgy_x * groundgv_z - groundgy_z * groundgv_x;
+  const Real t490 = groundgy_y * groundgv_z + groundgy_z * groundgv_y;
+  const Real grounds1bn0_x = q0r0_x * t490 + (q0r2_x * t482 - q0r1_x * t486);
+  const Real grounds1bn0_y = q0r0_y * t490 - (q0r2_y * t482 + q0r1_y * t486);
+  const Real grounds1bn0_z = q0r0_z * t490 + (q0r2_z * t482 + q0r1_z * t486);
   const Real groundgz_z = expression_68 * groundgo_4;
-  const Real t505 = groundgo_4 * groundgv_z - groundgv_y * groundgz_z;
-  const Real grounds2bn0_x = q0r0_x * t505 - groundgv_x * (q0r1_x * groundgz_z - q0r2_x * groundgo_4);
-  const Real grounds2bn0_y = q0r0_y * t505 - groundgv_x * (q0r1_y * groundgz_z + q0r2_y * groundgo_4);
-  const Real grounds2bn0_z = q0r0_z * t505 + groundgv_x * (q0r1_z * groundgz_z + q0r2_z * groundgo_4);
-  const Real t528 = grounds1bn0_x * model.c19;
-  const Real t529 = grounds1bn0_z * model.c19;
-  const Real t532 = t451 * t528 + t455 * t529;
-  const Real t541 = grounds2bn0_x * model.c19;
-  const Real t542 = grounds2bn0_y * model.c12;
-  const Real t543 = grounds2bn0_z * model.c19;
-  const Real t546 = t451 * t541 + t455 * t543;
-  const Real t562 = Real(1.0) / (groundgo_2 * (groundgo_3 * groundgo_3) * model.c13 + model.c19 * (t451 * t451
-      + t455 * t455) + Real(4.9999999999999995e-11));
-  const Real t563 = t532 * t562;
-  const Real t574 = t546 * t562;
-  const Real t578 = t532 * t574 - (grounds1bn0_z * t543 + (grounds1bn0_x * t541 + grounds1bn0_y * t542));
-  const Real t580 = Real(1.0) / (model.c13 * (groundgy_z * groundgy_z + (groundgy_x * groundgy_x + groundgy_y
-      * groundgy_y)) - (t532 * t563 - (grounds1bn0_z * t529 + (grounds1bn0_x * t528 + grounds1bn0_y *
-      grounds1bn0_y * model.c12)) - Real(1.5000000000000002e-10)));
-  const Real t581 = t578 * t580;
-  const Real t592 = Real(1.0) / (t578 * t581 + (t546 * t574 - (grounds2bn0_z * t543 + (grounds2bn0_y * t542 +
-      (grounds2bn0_x * t541 + model.c13 * (groundgo * (groundgo_4 * groundgo_4)))))) - Real(2.5e-10));
-  const Real t593 = g_ground * t563;
-  const Real t599 = t592 * (g_ground * t574 + t581 * t593);
-  const Real t601 = t580 * t593 - t581 * t599;
-  const Real t605 = t574 * t599 - (g_ground * t562 + t563 * t601);
-  const Real t632 = model.c13 * (t408 * t605 + groundgy_x * t601);
-  const Real t633 = model.c13 * (groundgo_4 * t599 + (t409 * t605 - groundgy_y * t601));
-  const Real t634 = model.c13 * (groundgz_z * t599 - (groundgo_3 * t605 - groundgy_z * t601));
-  const Real t635 = model.c19 * (grounds2bn0_x * t599 - (t451 * t605 + grounds1bn0_x * t601));
-  const Real t636 = model.c12 * (grounds1bn0_y * t601 - grounds2bn0_y * t599);
-  const Real t637 = model.c19 * (grounds2bn0_z * t599 - (t455 * t605 + grounds1bn0_z * t601));
-  const Real t638 = state.y[0] - t632;
-  const Real t639 = state.y[1] - t633;
-  const Real t641 = Real(0.5) * t635;
-  const Real t642 = Real(0.5) * t636;
+  const Real t507 = groundgo_4 * groundgv_z - groundgv_y * groundgz_z;
+  const Real grounds2bn0_x = q0r0_x * t507 - groundgv_x * (q0r1_x * groundgz_z - q0r2_x * groundgo_4);
+  const Real grounds2bn0_y = q0r0_y * t507 - groundgv_x * (q0r1_y * groundgz_z + q0r2_y * groundgo_4);
+  const Real grounds2bn0_z = q0r0_z * t507 + groundgv_x * (q0r1_z * groundgz_z + q0r2_z * groundgo_4);
+  const Real t529 = grounds1bn0_x * model.c19;
+  const Real t530 = grounds1bn0_z * model.c19;
+  const Real t533 = t452 * t529 + t456 * t530;
+  const Real t542 = grounds2bn0_x * model.c19;
+  const Real t543 = grounds2bn0_y * model.c12;
+  const Real t544 = grounds2bn0_z * model.c19;
+  const Real t547 = t452 * t542 + t456 * t544;
+  const Real t563 = Real(1.0) / (model.c19 * (t452 * t452 + t456 * t456) + (groundgo_3 * (groundgo_3 *
+      (groundgo_2 * model.c13)) + Real(4.9999999999999995e-11)));
+  const Real t564 = t533 * t563;
+  const Real t575 = t547 * t563;
+  const Real t579 = t533 * t575 - (grounds1bn0_z * t544 + (grounds1bn0_x * t542 + grounds1bn0_y * t543));
+  const Real t581 = Real(1.0) / (t533 * t564 - (grounds1bn0_x * t529 + (model.c13 * (groundgy_z * groundgy_z +
+      (groundgy_x * groundgy_x + groundgy_y * groundgy_y)) + Real(1.5000000000000002e-10)) + (grounds1bn0_y *
+      (grounds1bn0_y * model.c12) + grounds1bn0_z * t530)));
+  const Real t582 = t579 * t581;
+  const Real t594 = Real(1.0) / (t579 * t582 - (t547 * t575 - (grounds2bn0_x * t542 + (groundgo_4 *
+      (groundgo_4 * (groundgo * model.c13)) + Real(2.5e-10)) + (grounds2bn0_y * t543 + grounds2bn0_z *
+      t544))));
+  const Real t595 = g_ground * t564;
+  const Real t601 = t594 * (g_ground * t575 - t582 * t595);
+  const Real t603 = t581 * t595 + t582 * t601;
+  const Real t607 = t564 * t603 - (g_ground * t563 + t575 * t601);
+  const Real t634 = model.c13 * (t410 * t607 + groundgy_x * t603);
+  const Real t635 = model.c13 * (t411 * t607 - (groundgy_y * t603 - groundgo_4 * t601));
+  const Real t636 = model.c13 * (groundgo_3 * t607 - (groundgy_z * t603 + groundgz_z * t601));
+  const Real t637 = model.c19 * (t452 * t607 - (grounds1bn0_x * t603 - grounds2bn0_x * t601));
+  const Real t638 = model.c12 * (grounds1bn0_y * t603 - grounds2bn0_y * t601);
+  const Real t639 = model.c19 * (t456 * t607 - (grounds1bn0_z * t603 - grounds2bn0_z * t601));
+  const Real t640 = state.y[0] + t634;
+  const Real t641 = state.y[1] + t635;
   const Real t643 = Real(0.5) * t637;
-  const Real t650 = state.y[6] * t642 + (state.y[5] * t643 + (state.y[4] - state.y[3] * t641));
-  const Real t657 = state.y[4] * t643 + (state.y[6] * t641 - (state.y[5] - state.y[3] * t642));
-  const Real t661 = state.y[6] * t643 - (state.y[5] * t642 + (state.y[3] + state.y[4] * t641));
-  const Real t667 = state.y[5] * t641 - (state.y[4] * t642 - (state.y[6] + state.y[3] * t643));
-  const Real t676 = Real(1.0) / detail::square_root(t667 * t667 + (t657 * t657 + (t661 * t661 + t650 *
-      t650)));
-  const Real t677 = t661 * t676;
-  const Real t678 = t650 * t676;
-  const Real t679 = t657 * t676;
-  const Real t680 = t667 * t676;
-  const Real q0d1_2 = Real(2.0) * t678;
-  const Real q0d2_2 = Real(2.0) * t679;
-  const Real q0d3_2 = Real(2.0) * t680;
-  const Real q011_2 = t678 * q0d1_2;
-  const Real q033_2 = t680 * q0d3_2;
-  const Real q012_2 = t678 * q0d2_2;
-  const Real q023_2 = t679 * q0d3_2;
-  const Real q001_2 = t677 * q0d1_2;
-  const Real q003_2 = t677 * q0d3_2;
+  const Real t644 = Real(0.5) * t638;
+  const Real t645 = Real(0.5) * t639;
+  const Real t652 = state.y[5] * t645 - (state.y[3] * t643 + (state.y[4] - state.y[6] * t644));
+  const Real t659 = state.y[4] * t645 + (state.y[6] * t643 + (state.y[5] + state.y[3] * t644));
+  const Real t663 = state.y[6] * t645 - (state.y[4] * t643 - (state.y[3] - state.y[5] * t644));
+  const Real t669 = state.y[5] * t643 + (state.y[3] * t645 - (state.y[6] + state.y[4] * t644));
+  const Real t678 = Real(1.0) / detail::square_root(t663 * t663 + t652 * t652 + (t659 * t659 + t669 * t669));
+  const Real t679 = t663 * t678;
+  const Real t680 = t652 * t678;
+  const Real t681 = t659 * t678;
+  const Real t682 = t669 * t678;
+  const Real q0d1_2 = Real(2.0) * t680;
+  const Real q0d2_2 = Real(2.0) * t681;
+  const Real q0d3_2 = Real(2.0) * t682;
+  const Real q011_2 = t680 * q0d1_2;
+  const Real q033_2 = t682 * q0d3_2;
+  const Real q012_2 = t680 * q0d2_2;
+  const Real q023_2 = t681 * q0d3_2;
+  const Real q001_2 = t679 * q0d1_2;
+  const Real q003_2 = t679 * q0d3_2;
   const Real q0r0_y_2 = q012_2 - q003_2;
-  const Real t691 = Real(1.0) - q011_2;
-  const Real q0r1_y_2 = q033_2 - t691;
+  const Real t693 = Real(1.0) - q011_2;
+  const Real q0r1_y_2 = q033_2 - t693;
   const Real q0r2_y_2 = q023_2 + q001_2;
   const Real groundgs_xx_2 = Real(1.0) - q0r0_y_2 * q0r0_y_2;
   const Real groundgs_xy_2 = q0r0_y_2 * q0r1_y_2;
@@ -1214,25 +1184,25 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real groundgs_yy_2 = Real(1.0) - q0r1_y_2 * q0r1_y_2;
   const Real groundgs_yz_2 = q0r1_y_2 * q0r2_y_2;
   const Real groundgs_zz_2 = Real(1.0) - q0r2_y_2 * q0r2_y_2;
-  const Real expression_69 = model.wave * t638;
+  const Real expression_69 = model.wave * t640;
   Real expression_75, expression_70;
   detail::sine_cosine(expression_69, expression_75, expression_70);
   const Real expression_71 = model.c6 * expression_70;
-  const Real expression_72 = model.wave * t639;
+  const Real expression_72 = model.wave * t641;
   Real expression_78, expression_73;
   detail::sine_cosine(expression_72, expression_78, expression_73);
   const Real expression_74 = expression_71 * expression_73;
-  const Real expression_76 = model.c7 * (expression_73 * expression_75);
+  const Real expression_76 = expression_75 * (model.c7 * expression_73);
   const Real expression_77 = model.hill * expression_75;
   const Real expression_79 = model.wave * expression_78;
   const Real expression_80 = expression_77 * expression_79;
   const Real expression_81 = expression_71 * expression_79;
-  const Real expression_82 = model.c9 * (expression_73 * expression_77);
+  const Real expression_82 = expression_77 * (model.c9 * expression_73);
   const Real groundg0e_x_2 = groundgs_xy_2 * expression_80 + (groundgs_xz_2 + groundgs_xx_2 * expression_74);
   const Real groundg0e_y_2 = groundgs_yy_2 * expression_80 - (groundgs_yz_2 - groundgs_xy_2 * expression_74);
-  const Real groundg0u_2 = expression_74 * (groundgs_xz_2 + groundg0e_x_2) + (groundgs_zz_2 - expression_80 *
-      (groundgs_yz_2 - groundg0e_y_2));
-  const Real groundg0r_2 = detail::square_root(groundg0u_2);
+  const Real groundg0u_2 = expression_80 * (groundgs_yz_2 - groundg0e_y_2) - (groundgs_zz_2 + expression_74 *
+      (groundgs_xz_2 + groundg0e_x_2));
+  const Real groundg0r_2 = detail::square_root(-groundg0u_2);
   const Real groundg0i_2 = Real(1.0) / groundg0r_2;
   const Real groundg0q_x_2 = groundg0e_x_2 * groundg0i_2;
   const Real groundg0q_y_2 = groundg0e_y_2 * groundg0i_2;
@@ -1242,23 +1212,21 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real groundg0f_4 = model.radius * groundg0q_y_2;
   const Real groundg0p_5 = groundgs_xy_2 - groundg0q_x_2 * groundg0q_y_2;
   const Real groundg0p_6 = groundgs_yy_2 - groundg0q_y_2 * groundg0q_y_2;
-  const Real t747 = expression_81 * groundg0p_5;
-  const Real groundg0k_5 = expression_76 * groundg0p_4 - t747;
+  const Real t750 = expression_81 * groundg0p_5;
+  const Real groundg0k_5 = expression_76 * groundg0p_4 - t750;
   const Real groundg0j_5 = Real(1.0) + groundg0l_2 * groundg0k_5;
   const Real groundg0k_6 = expression_81 * groundg0p_4 - expression_82 * groundg0p_5;
   const Real groundg0j_6 = groundg0l_2 * groundg0k_6;
   const Real groundg0k_7 = expression_76 * groundg0p_5 - expression_81 * groundg0p_6;
   const Real groundg0j_7 = groundg0l_2 * groundg0k_7;
-  const Real groundg0k_8 = t747 - expression_82 * groundg0p_6;
+  const Real groundg0k_8 = t750 - expression_82 * groundg0p_6;
   const Real groundg0j_8 = Real(1.0) - groundg0l_2 * groundg0k_8;
   const Real groundg0t_2 = groundg0j_5 * groundg0j_8 + groundg0j_6 * groundg0j_7;
   const Real groundg0d_2 = Real(1.0) / groundg0t_2;
-  const Real groundg0a_5 = groundg0j_8 * groundg0d_2;
-  const Real groundg0a_6 = groundg0j_6 * groundg0d_2;
-  const Real groundg0a_7 = groundg0j_7 * groundg0d_2;
-  const Real groundg0a_8 = groundg0j_5 * groundg0d_2;
-  const Real groundgc_9 = groundg0f_4 * groundg0a_6 + (t638 + groundg0f_3 * groundg0a_5);
-  const Real groundgc_10 = groundg0f_4 * groundg0a_8 - (t639 + groundg0f_3 * groundg0a_7);
+  const Real groundgc_9 = groundg0d_2 * (groundg0f_4 * groundg0j_6) + (t640 + groundg0d_2 * (groundg0f_3 *
+      groundg0j_8));
+  const Real groundgc_10 = groundg0d_2 * (groundg0f_4 * groundg0j_5) - (t641 + groundg0d_2 * (groundg0f_3 *
+      groundg0j_7));
   const Real expression_83 = model.wave * groundgc_9;
   Real expression_89, expression_84;
   detail::sine_cosine(expression_83, expression_89, expression_84);
@@ -1267,43 +1235,41 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   Real expression_92, expression_87;
   detail::sine_cosine(expression_86, expression_92, expression_87);
   const Real expression_88 = expression_85 * expression_87;
-  const Real expression_90 = model.c7 * (expression_87 * expression_89);
+  const Real expression_90 = expression_89 * (model.c7 * expression_87);
   const Real expression_91 = model.hill * expression_89;
   const Real expression_93 = model.wave * expression_92;
   const Real expression_94 = expression_91 * expression_93;
   const Real expression_95 = expression_85 * expression_93;
-  const Real expression_96 = model.c9 * (expression_87 * expression_91);
+  const Real expression_96 = expression_91 * (model.c9 * expression_87);
   const Real groundg1e_x_2 = groundgs_xy_2 * expression_94 - (groundgs_xz_2 + groundgs_xx_2 * expression_88);
   const Real groundg1e_y_2 = groundgs_yy_2 * expression_94 + (groundgs_yz_2 - groundgs_xy_2 * expression_88);
-  const Real groundg1u_2 = expression_88 * (groundgs_xz_2 - groundg1e_x_2) + (groundgs_zz_2 + expression_94 *
-      (groundgs_yz_2 + groundg1e_y_2));
+  const Real groundg1u_2 = expression_94 * (groundgs_yz_2 + groundg1e_y_2) + (groundgs_zz_2 + expression_88 *
+      (groundgs_xz_2 - groundg1e_x_2));
   const Real groundg1r_2 = detail::square_root(groundg1u_2);
   const Real groundg1i_2 = Real(1.0) / groundg1r_2;
   const Real groundg1q_x_2 = groundg1e_x_2 * groundg1i_2;
   const Real groundg1q_y_2 = groundg1e_y_2 * groundg1i_2;
   const Real groundg1l_2 = model.radius * groundg1i_2;
-  const Real groundg1f_3 = model.radius * groundg1q_x_2 - (t638 - groundgc_9);
+  const Real groundg1f_3 = model.radius * groundg1q_x_2 - (t640 - groundgc_9);
   const Real groundg1p_4 = groundgs_xx_2 - groundg1q_x_2 * groundg1q_x_2;
-  const Real groundg1f_4 = model.radius * groundg1q_y_2 + (t639 + groundgc_10);
+  const Real groundg1f_4 = model.radius * groundg1q_y_2 + (t641 + groundgc_10);
   const Real groundg1p_5 = groundgs_xy_2 - groundg1q_x_2 * groundg1q_y_2;
   const Real groundg1p_6 = groundgs_yy_2 - groundg1q_y_2 * groundg1q_y_2;
-  const Real t827 = expression_95 * groundg1p_5;
-  const Real groundg1k_5 = expression_90 * groundg1p_4 + t827;
+  const Real t830 = expression_95 * groundg1p_5;
+  const Real groundg1k_5 = expression_90 * groundg1p_4 + t830;
   const Real groundg1j_5 = Real(1.0) + groundg1l_2 * groundg1k_5;
   const Real groundg1k_6 = expression_95 * groundg1p_4 + expression_96 * groundg1p_5;
   const Real groundg1j_6 = groundg1l_2 * groundg1k_6;
   const Real groundg1k_7 = expression_90 * groundg1p_5 + expression_95 * groundg1p_6;
   const Real groundg1j_7 = groundg1l_2 * groundg1k_7;
-  const Real groundg1k_8 = t827 + expression_96 * groundg1p_6;
+  const Real groundg1k_8 = t830 + expression_96 * groundg1p_6;
   const Real groundg1j_8 = Real(1.0) + groundg1l_2 * groundg1k_8;
   const Real groundg1t_2 = groundg1j_5 * groundg1j_8 - groundg1j_6 * groundg1j_7;
   const Real groundg1d_2 = Real(1.0) / groundg1t_2;
-  const Real groundg1a_5 = groundg1j_8 * groundg1d_2;
-  const Real groundg1a_6 = groundg1j_6 * groundg1d_2;
-  const Real groundg1a_7 = groundg1j_7 * groundg1d_2;
-  const Real groundg1a_8 = groundg1j_5 * groundg1d_2;
-  const Real groundgc_11 = groundg1f_4 * groundg1a_6 + (groundgc_9 - groundg1f_3 * groundg1a_5);
-  const Real groundgc_12 = groundg1f_4 * groundg1a_8 - (groundgc_10 + groundg1f_3 * groundg1a_7);
+  const Real groundgc_11 = groundg1d_2 * (groundg1f_4 * groundg1j_6) + (groundgc_9 - groundg1d_2 *
+      (groundg1f_3 * groundg1j_8));
+  const Real groundgc_12 = groundg1d_2 * (groundg1f_4 * groundg1j_5) - (groundgc_10 + groundg1d_2 *
+      (groundg1f_3 * groundg1j_7));
   const Real expression_97 = model.wave * groundgc_11;
   Real expression_103, expression_98;
   detail::sine_cosine(expression_97, expression_103, expression_98);
@@ -1312,45 +1278,43 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   Real expression_106, expression_101;
   detail::sine_cosine(expression_100, expression_106, expression_101);
   const Real expression_102 = expression_99 * expression_101;
-  const Real expression_104 = model.c7 * (expression_101 * expression_103);
+  const Real expression_104 = expression_103 * (model.c7 * expression_101);
   const Real expression_105 = model.hill * expression_103;
   const Real expression_107 = model.wave * expression_106;
   const Real expression_108 = expression_105 * expression_107;
   const Real expression_109 = expression_99 * expression_107;
-  const Real expression_110 = model.c9 * (expression_101 * expression_105);
+  const Real expression_110 = expression_105 * (model.c9 * expression_101);
   const Real groundg2e_x_2 = groundgs_xy_2 * expression_108 + (groundgs_xz_2 + groundgs_xx_2 *
       expression_102);
   const Real groundg2e_y_2 = groundgs_yy_2 * expression_108 - (groundgs_yz_2 - groundgs_xy_2 *
       expression_102);
-  const Real groundg2u_2 = expression_102 * (groundgs_xz_2 + groundg2e_x_2) + (groundgs_zz_2 - expression_108
-      * (groundgs_yz_2 - groundg2e_y_2));
-  const Real groundg2r_2 = detail::square_root(groundg2u_2);
+  const Real groundg2u_2 = expression_108 * (groundgs_yz_2 - groundg2e_y_2) - (groundgs_zz_2 + expression_102
+      * (groundgs_xz_2 + groundg2e_x_2));
+  const Real groundg2r_2 = detail::square_root(-groundg2u_2);
   const Real groundg2i_2 = Real(1.0) / groundg2r_2;
   const Real groundg2q_x_2 = groundg2e_x_2 * groundg2i_2;
   const Real groundg2q_y_2 = groundg2e_y_2 * groundg2i_2;
   const Real groundg2l_2 = model.radius * groundg2i_2;
-  const Real groundg2f_3 = model.radius * groundg2q_x_2 + (t638 - groundgc_11);
+  const Real groundg2f_3 = model.radius * groundg2q_x_2 + (t640 - groundgc_11);
   const Real groundg2p_4 = groundgs_xx_2 - groundg2q_x_2 * groundg2q_x_2;
-  const Real groundg2f_4 = model.radius * groundg2q_y_2 - (t639 - groundgc_12);
+  const Real groundg2f_4 = model.radius * groundg2q_y_2 - (t641 - groundgc_12);
   const Real groundg2p_5 = groundgs_xy_2 - groundg2q_x_2 * groundg2q_y_2;
   const Real groundg2p_6 = groundgs_yy_2 - groundg2q_y_2 * groundg2q_y_2;
-  const Real t907 = expression_109 * groundg2p_5;
-  const Real groundg2k_5 = expression_104 * groundg2p_4 - t907;
+  const Real t911 = expression_109 * groundg2p_5;
+  const Real groundg2k_5 = expression_104 * groundg2p_4 - t911;
   const Real groundg2j_5 = Real(1.0) + groundg2l_2 * groundg2k_5;
   const Real groundg2k_6 = expression_109 * groundg2p_4 - expression_110 * groundg2p_5;
   const Real groundg2j_6 = groundg2l_2 * groundg2k_6;
   const Real groundg2k_7 = expression_104 * groundg2p_5 - expression_109 * groundg2p_6;
   const Real groundg2j_7 = groundg2l_2 * groundg2k_7;
-  const Real groundg2k_8 = t907 - expression_110 * groundg2p_6;
+  const Real groundg2k_8 = t911 - expression_110 * groundg2p_6;
   const Real groundg2j_8 = Real(1.0) - groundg2l_2 * groundg2k_8;
   const Real groundg2t_2 = groundg2j_5 * groundg2j_8 + groundg2j_6 * groundg2j_7;
   const Real groundg2d_2 = Real(1.0) / groundg2t_2;
-  const Real groundg2a_5 = groundg2j_8 * groundg2d_2;
-  const Real groundg2a_6 = groundg2j_6 * groundg2d_2;
-  const Real groundg2a_7 = groundg2j_7 * groundg2d_2;
-  const Real groundg2a_8 = groundg2j_5 * groundg2d_2;
-  const Real groundgc_13 = groundg2f_4 * groundg2a_6 + (groundgc_11 + groundg2f_3 * groundg2a_5);
-  const Real groundgc_14 = groundg2f_4 * groundg2a_8 - (groundgc_12 + groundg2f_3 * groundg2a_7);
+  const Real groundgc_13 = groundg2d_2 * (groundg2f_4 * groundg2j_6) + (groundgc_11 + groundg2d_2 *
+      (groundg2f_3 * groundg2j_8));
+  const Real groundgc_14 = groundg2d_2 * (groundg2f_4 * groundg2j_5) - (groundgc_12 + groundg2d_2 *
+      (groundg2f_3 * groundg2j_7));
   const Real expression_111 = model.wave * groundgc_13;
   Real expression_117, expression_112;
   detail::sine_cosine(expression_111, expression_117, expression_112);
@@ -1359,53 +1323,51 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   Real expression_120, expression_115;
   detail::sine_cosine(expression_114, expression_120, expression_115);
   const Real expression_116 = expression_113 * expression_115;
-  const Real expression_118 = model.c7 * (expression_115 * expression_117);
+  const Real expression_118 = expression_117 * (model.c7 * expression_115);
   const Real expression_119 = model.hill * expression_117;
   const Real expression_121 = model.wave * expression_120;
   const Real expression_122 = expression_119 * expression_121;
   const Real expression_123 = expression_113 * expression_121;
-  const Real expression_124 = model.c9 * (expression_115 * expression_119);
+  const Real expression_124 = expression_119 * (model.c9 * expression_115);
   const Real groundg3e_x_2 = groundgs_xy_2 * expression_122 - (groundgs_xz_2 + groundgs_xx_2 *
       expression_116);
   const Real groundg3e_y_2 = groundgs_yy_2 * expression_122 + (groundgs_yz_2 - groundgs_xy_2 *
       expression_116);
-  const Real groundg3u_2 = expression_116 * (groundgs_xz_2 - groundg3e_x_2) + (groundgs_zz_2 + expression_122
-      * (groundgs_yz_2 + groundg3e_y_2));
+  const Real groundg3u_2 = expression_122 * (groundgs_yz_2 + groundg3e_y_2) + (groundgs_zz_2 + expression_116
+      * (groundgs_xz_2 - groundg3e_x_2));
   const Real groundg3r_2 = detail::square_root(groundg3u_2);
   const Real groundg3i_2 = Real(1.0) / groundg3r_2;
   const Real groundg3q_x_2 = groundg3e_x_2 * groundg3i_2;
   const Real groundg3q_y_2 = groundg3e_y_2 * groundg3i_2;
   const Real groundg3l_2 = model.radius * groundg3i_2;
-  const Real groundg3f_3 = model.radius * groundg3q_x_2 - (t638 - groundgc_13);
+  const Real groundg3f_3 = model.radius * groundg3q_x_2 - (t640 - groundgc_13);
   const Real groundg3p_4 = groundgs_xx_2 - groundg3q_x_2 * groundg3q_x_2;
-  const Real groundg3f_4 = model.radius * groundg3q_y_2 + (t639 + groundgc_14);
+  const Real groundg3f_4 = model.radius * groundg3q_y_2 + (t641 + groundgc_14);
   const Real groundg3p_5 = groundgs_xy_2 - groundg3q_x_2 * groundg3q_y_2;
   const Real groundg3p_6 = groundgs_yy_2 - groundg3q_y_2 * groundg3q_y_2;
-  const Real t987 = expression_123 * groundg3p_5;
-  const Real groundg3k_5 = expression_118 * groundg3p_4 + t987;
+  const Real t991 = expression_123 * groundg3p_5;
+  const Real groundg3k_5 = expression_118 * groundg3p_4 + t991;
   const Real groundg3j_5 = Real(1.0) + groundg3l_2 * groundg3k_5;
   const Real groundg3k_6 = expression_123 * groundg3p_4 + expression_124 * groundg3p_5;
   const Real groundg3j_6 = groundg3l_2 * groundg3k_6;
   const Real groundg3k_7 = expression_118 * groundg3p_5 + expression_123 * groundg3p_6;
   const Real groundg3j_7 = groundg3l_2 * groundg3k_7;
-  const Real groundg3k_8 = t987 + expression_124 * groundg3p_6;
+  const Real groundg3k_8 = t991 + expression_124 * groundg3p_6;
   const Real groundg3j_8 = Real(1.0) + groundg3l_2 * groundg3k_8;
   const Real groundg3t_2 = groundg3j_5 * groundg3j_8 - groundg3j_6 * groundg3j_7;
   const Real groundg3d_2 = Real(1.0) / groundg3t_2;
-  const Real groundg3a_5 = groundg3j_8 * groundg3d_2;
-  const Real groundg3a_6 = groundg3j_6 * groundg3d_2;
-  const Real groundg3a_7 = groundg3j_7 * groundg3d_2;
-  const Real groundg3a_8 = groundg3j_5 * groundg3d_2;
-  const Real groundgc_15 = groundg3f_4 * groundg3a_6 + (groundgc_13 - groundg3f_3 * groundg3a_5);
-  const Real groundgc_16 = groundg3f_4 * groundg3a_8 - (groundgc_14 + groundg3f_3 * groundg3a_7);
+  const Real groundgc_15 = groundg3d_2 * (groundg3f_4 * groundg3j_6) + (groundgc_13 - groundg3d_2 *
+      (groundg3f_3 * groundg3j_8));
+  const Real groundgc_16 = groundg3d_2 * (groundg3f_4 * groundg3j_5) - (groundgc_14 + groundg3d_2 *
+      (groundg3f_3 * groundg3j_7));
   const Real expression_125 = model.wave * groundgc_15;
   Real expression_126, expression_129;
   detail::sine_cosine(expression_125, expression_126, expression_129);
   const Real expression_127 = model.wave * groundgc_16;
   Real expression_131, expression_128;
   detail::sine_cosine(expression_127, expression_131, expression_128);
-  const Real expression_130 = model.c6 * (expression_128 * expression_129);
-  const Real expression_132 = model.c6 * (expression_126 * expression_131);
+  const Real expression_130 = expression_129 * (model.c6 * expression_128);
+  const Real expression_132 = expression_131 * (model.c6 * expression_126);
   const Real groundgge_x_2 = groundgs_xy_2 * expression_132 + (groundgs_xz_2 + groundgs_xx_2 *
       expression_130);
   const Real groundgge_y_2 = groundgs_yy_2 * expression_132 - (groundgs_yz_2 - groundgs_xy_2 *
@@ -1415,105 +1377,101 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real groundggu_2 = expression_132 * groundgge_y_2 - (groundgge_z_2 - expression_130 * groundgge_x_2);
   const Real groundggr_2 = detail::square_root(groundggu_2);
   const Real groundgo_6 = Real(1.0) + expression_132 * expression_132;
-  const Real t1048 = expression_130 * expression_130;
-  const Real groundgo_7 = groundgo_6 + t1048;
+  const Real t1052 = expression_130 * expression_130;
+  const Real groundgo_7 = groundgo_6 + t1052;
   const Real groundgo_8 = Real(1.0) / detail::square_root(groundgo_7);
-  const Real t1052 = Real(0.5) * t677;
-  const Real t1053 = Real(0.5) * t678;
-  const Real t1054 = Real(0.5) * t679;
-  const Real t1055 = Real(0.5) * t680;
+  const Real t1056 = Real(0.5) * t679;
+  const Real t1057 = Real(0.5) * t680;
+  const Real t1058 = Real(0.5) * t681;
+  const Real t1059 = Real(0.5) * t682;
   const Real groundggi_2 = Real(1.0) / groundggr_2;
-  const Real t1059 = model.c18 * (groundgo_8 * groundggi_2);
-  const Real t1062 = Real(2.0) * t677;
-  const Real t1065 = expression_132 + expression_132;
-  const Real t1066 = q0r1_y_2 * t1065;
-  const Real t1068 = expression_130 + expression_130;
-  const Real t1076 = t1059 * (q0r2_y_2 * t1068 - (t1048 * (q0r0_y_2 + q0r0_y_2) - expression_130 * t1066));
-  const Real t1077 = t1059 * (q0r0_y_2 * t1068 - (t1066 + (q0r2_y_2 + q0r2_y_2)));
-  const Real t1079 = q0d1_2 * t1077;
-  const Real t1080 = q0d3_2 * t1077;
-  const Real t1084 = t1080 + q0d1_2 * t1076;
-  const Real t1089 = t1079 - q0d3_2 * t1076;
-  const Real t1094 = t1065 * t1079 + (t1062 * t1077 + q0d2_2 * t1076);
-  const Real t1099 = t1065 * t1080 + (q0d2_2 * t1077 - t1062 * t1076);
-  const Real q022_2 = t679 * q0d2_2;
-  const Real q013_2 = t678 * q0d3_2;
-  const Real q002_2 = t677 * q0d2_2;
+  const Real t1063 = groundggi_2 * (model.c18 * groundgo_8);
+  const Real t1064 = Real(2.0) * t679;
+  const Real t1066 = expression_132 + expression_132;
+  const Real t1067 = q0r1_y_2 * t1066;
+  const Real t1069 = expression_130 + expression_130;
+  const Real t1077 = t1063 * (expression_130 * t1067 - (t1052 * (q0r0_y_2 + q0r0_y_2) - q0r2_y_2 * t1069));
+  const Real t1078 = t1063 * (q0r0_y_2 * t1069 - (t1067 + (q0r2_y_2 + q0r2_y_2)));
+  const Real t1080 = q0d1_2 * t1078;
+  const Real t1081 = q0d3_2 * t1078;
+  const Real t1085 = t1081 + q0d1_2 * t1077;
+  const Real t1090 = t1080 - q0d3_2 * t1077;
+  const Real t1095 = t1066 * t1080 + (t1064 * t1078 + q0d2_2 * t1077);
+  const Real t1100 = t1066 * t1081 + (q0d2_2 * t1078 - t1064 * t1077);
+  const Real q022_2 = t681 * q0d2_2;
+  const Real q013_2 = t680 * q0d3_2;
+  const Real q002_2 = t679 * q0d2_2;
   const Real q0r0_x_2 = q022_2 - (Real(1.0) - q033_2);
   const Real q0r0_z_2 = q013_2 + q002_2;
   const Real q0r1_x_2 = q012_2 + q003_2;
   const Real q0r1_z_2 = q023_2 - q001_2;
   const Real q0r2_x_2 = q013_2 - q002_2;
-  const Real q0r2_z_2 = t691 - q022_2;
-  const Real groundggq_x_2 = groundgge_x_2 * groundggi_2;
-  const Real groundggq_y_2 = groundgge_y_2 * groundggi_2;
-  const Real groundggq_z_2 = groundgge_z_2 * groundggi_2;
+  const Real q0r2_z_2 = t693 - q022_2;
   const Real groundgo_9 = Real(1.0) / detail::square_root(groundgo_6);
   const Real groundgo_10 = groundgo_8 * groundgo_9;
   const Real groundgy_x_2 = groundgo_6 * groundgo_10;
-  const Real groundgy_y_2 = expression_130 * expression_132 * groundgo_10;
+  const Real groundgy_y_2 = groundgo_10 * (expression_130 * expression_132);
   const Real groundgy_z_2 = expression_130 * groundgo_10;
-  const Real groundgv_x_2 = model.radius * groundggq_x_2;
-  const Real groundgv_y_2 = model.radius * groundggq_y_2;
-  const Real groundgv_z_2 = model.radius * groundggq_z_2;
-  const Real t1132 = groundgy_x_2 * groundgv_y_2 + groundgy_y_2 * groundgv_x_2;
-  const Real t1136 = groundgy_x_2 * groundgv_z_2 - groundgy_z_2 * groundgv_x_2;
-  const Real t1140 = groundgy_y_2 * groundgv_z_2 + groundgy_z_2 * groundgv_y_2;
-  const Real grounds1bn0_x_2 = q0r0_x_2 * t1140 + (q0r2_x_2 * t1132 - q0r1_x_2 * t1136);
-  const Real grounds1bn0_y_2 = q0r0_y_2 * t1140 - (q0r2_y_2 * t1132 + q0r1_y_2 * t1136);
-  const Real grounds1bn0_z_2 = q0r0_z_2 * t1140 - (q0r2_z_2 * t1132 - q0r1_z_2 * t1136);
+  const Real groundgv_x_2 = groundggi_2 * (model.radius * groundgge_x_2);
+  const Real groundgv_y_2 = groundggi_2 * (model.radius * groundgge_y_2);
+  const Real groundgv_z_2 = groundggi_2 * (model.radius * groundgge_z_2);
+  const Real t1134 = groundgy_x_2 * groundgv_y_2 + groundgy_y_2 * groundgv_x_2;
+  const Real t1138 = groundgy_x_2 * groundgv_z_2 - groundgy_z_2 * groundgv_x_2;
+  const Real t1142 = groundgy_y_2 * groundgv_z_2 + groundgy_z_2 * groundgv_y_2;
+  const Real grounds1bn0_x_2 = q0r0_x_2 * t1142 + (q0r2_x_2 * t1134 - q0r1_x_2 * t1138);
+  const Real grounds1bn0_y_2 = q0r0_y_2 * t1142 - (q0r2_y_2 * t1134 + q0r1_y_2 * t1138);
+  const Real grounds1bn0_z_2 = q0r0_z_2 * t1142 - (q0r2_z_2 * t1134 - q0r1_z_2 * t1138);
   const Real groundgz_z_2 = expression_132 * groundgo_9;
-  const Real t1157 = groundgo_9 * groundgv_z_2 - groundgv_y_2 * groundgz_z_2;
-  const Real grounds2bn0_x_2 = q0r0_x_2 * t1157 - groundgv_x_2 * (q0r1_x_2 * groundgz_z_2 - q0r2_x_2 *
+  const Real t1159 = groundgo_9 * groundgv_z_2 - groundgv_y_2 * groundgz_z_2;
+  const Real grounds2bn0_x_2 = q0r0_x_2 * t1159 - groundgv_x_2 * (q0r1_x_2 * groundgz_z_2 - q0r2_x_2 *
       groundgo_9);
-  const Real grounds2bn0_y_2 = q0r0_y_2 * t1157 - groundgv_x_2 * (q0r1_y_2 * groundgz_z_2 + q0r2_y_2 *
+  const Real grounds2bn0_y_2 = q0r0_y_2 * t1159 - groundgv_x_2 * (q0r1_y_2 * groundgz_z_2 + q0r2_y_2 *
       groundgo_9);
-  const Real grounds2bn0_z_2 = q0r0_z_2 * t1157 + groundgv_x_2 * (q0r1_z_2 * groundgz_z_2 - q0r2_z_2 *
+  const Real grounds2bn0_z_2 = q0r0_z_2 * t1159 + groundgv_x_2 * (q0r1_z_2 * groundgz_z_2 - q0r2_z_2 *
       groundgo_9);
-  const Real t1190 = (t1052 * t1099 + (t1054 * t1094 - (t1053 * t1084 + t1055 * t1089))) * state.z[5] -
-      ((t1054 * t1099 - (t1052 * t1094 + (t1055 * t1084 - t1053 * t1089))) * state.z[3] - (groundgo_8 *
-      state.z[2] - (expression_130 * groundgo_8 * state.z[0] - expression_132 * groundgo_8 * state.z[1])));
-  const Real t1208 = t563 * t1190 - (grounds1bn0_z_2 * state.z[5] - (grounds1bn0_y_2 * state.z[4] +
-      (grounds1bn0_x_2 * state.z[3] + (groundgy_z_2 * state.z[2] + (groundgy_x_2 * state.z[0] + groundgy_y_2 *
-      state.z[1])))));
-  const Real t1219 = t592 * (t581 * t1208 + (t574 * t1190 + (grounds2bn0_z_2 * state.z[5] - (grounds2bn0_y_2 *
-      state.z[4] + (grounds2bn0_x_2 * state.z[3] + (groundgo_9 * state.z[1] - groundgz_z_2 * state.z[2]))))));
-  const Real t1221 = t580 * t1208 - t581 * t1219;
-  const Real t1225 = t574 * t1219 - (t562 * t1190 + t563 * t1221);
-  const Real expression_133 = model.c7 * (expression_58 * expression_61);
+  const Real t1194 = (t1057 * t1085 + t1059 * t1090 - (t1058 * t1095 + t1056 * t1100)) * state.z[5] - ((t1059
+      * t1085 - t1057 * t1090 + (t1056 * t1095 - t1058 * t1100)) * state.z[3] + (groundgo_8 * state.z[2] -
+      (groundgo_8 * (expression_130 * state.z[0]) - groundgo_8 * (expression_132 * state.z[1]))));
+  const Real t1212 = t564 * t1194 + (grounds1bn0_x_2 * state.z[3] + (groundgy_z_2 * state.z[2] + (groundgy_x_2
+      * state.z[0] + groundgy_y_2 * state.z[1])) + (grounds1bn0_y_2 * state.z[4] - grounds1bn0_z_2 *
+      state.z[5]));
+  const Real t1223 = t594 * (t582 * t1212 - (t575 * t1194 - (grounds2bn0_x_2 * state.z[3] + (groundgo_9 *
+      state.z[1] - groundgz_z_2 * state.z[2]) + (grounds2bn0_y_2 * state.z[4] - grounds2bn0_z_2 *
+      state.z[5]))));
+  const Real t1225 = t581 * t1212 - t582 * t1223;
+  const Real t1229 = t564 * t1225 - (t563 * t1194 - t575 * t1223);
+  const Real expression_133 = expression_61 * (model.c7 * expression_58);
   const Real expression_134 = expression_64 * expression_67;
   const Real expression_135 = model.c9 * expression_62;
   const Real groundggl = model.radius * groundggi;
   const Real groundggp = groundgs_xx - groundggq_x * groundggq_x;
   const Real groundggp_2 = groundgs_xy - groundggq_x * groundggq_y;
   const Real groundggp_3 = groundgs_yy - groundggq_y * groundggq_y;
-  const Real t1284 = expression_134 * groundggp_2;
-  const Real groundggk = expression_133 * groundggp - t1284;
+  const Real t1288 = expression_134 * groundggp_2;
+  const Real groundggk = expression_133 * groundggp - t1288;
   const Real groundggj = Real(1.0) + groundggl * groundggk;
   const Real groundggk_2 = expression_134 * groundggp - expression_135 * groundggp_2;
-  const Real groundggj_2 = groundggl * groundggk_2;
   const Real groundggk_3 = expression_133 * groundggp_2 - expression_134 * groundggp_3;
-  const Real groundggj_3 = groundggl * groundggk_3;
-  const Real groundggk_4 = t1284 - expression_135 * groundggp_3;
-  const Real groundggj_4 = Real(1.0) - groundggl * groundggk_4;
-  const Real groundggt = groundggj * groundggj_4 + groundggj_2 * groundggj_3;
-  closed.y[0] = t638;
-  closed.y[1] = t639;
-  closed.y[2] = state.y[2] - t634;
-  closed.y[3] = -t677;
-  closed.y[4] = t678;
-  closed.y[5] = -t679;
-  closed.y[6] = t680;
-  closed.z[0] = state.z[0] - model.c13 * (t408 * t1225 + groundgy_x * t1221);
-  closed.z[1] = state.z[1] - model.c13 * (groundgo_4 * t1219 + (t409 * t1225 - groundgy_y * t1221));
-  closed.z[2] = state.z[2] - model.c13 * (groundgz_z * t1219 - (groundgo_3 * t1225 - groundgy_z * t1221));
-  closed.z[3] = state.z[3] - model.c19 * (grounds2bn0_x * t1219 - (t451 * t1225 + grounds1bn0_x * t1221));
-  closed.z[4] = state.z[4] - model.c12 * (grounds1bn0_y * t1221 - grounds2bn0_y * t1219);
-  closed.z[5] = state.z[5] + model.c19 * (grounds2bn0_z * t1219 - (t455 * t1225 + grounds1bn0_z * t1221));
-  closed.regularity = -(Real(1.0) / (t592 * (t562 * t580)) * Real(0.5333333333333331));
-  closed.opening = detail::where_negative(groundggj + groundggj_4, Real(1.0)) +
-      (detail::where_negative(groundggt, Real(1.0)) + (groundgm_2 * groundgm_2 + (groundgm * groundgm + (t637
-      * t637 + (t636 * t636 + (t635 * t635 + (t634 * t634 + (t632 * t632 + t633 * t633))))))));
+  const Real groundggk_4 = t1288 - expression_135 * groundggp_3;
+  const Real groundggj_2 = Real(1.0) - groundggl * groundggk_4;
+  const Real groundggt = groundggj * groundggj_2 + groundggk_3 * (groundggk_2 * (groundggl * groundggl));
+  closed.y[0] = t640;
+  closed.y[1] = t641;
+  closed.y[2] = state.y[2] - t636;
+  closed.y[3] = t679;
+  closed.y[4] = -t680;
+  closed.y[5] = t681;
+  closed.y[6] = -t682;
+  closed.z[0] = state.z[0] + model.c13 * (t410 * t1229 + groundgy_x * t1225);
+  closed.z[1] = state.z[1] + model.c13 * (t411 * t1229 - (groundgy_y * t1225 + groundgo_4 * t1223));
+  closed.z[2] = state.z[2] - model.c13 * (groundgo_3 * t1229 - (groundgy_z * t1225 - groundgz_z * t1223));
+  closed.z[3] = state.z[3] + model.c19 * (t452 * t1229 - (grounds1bn0_x * t1225 + grounds2bn0_x * t1223));
+  closed.z[4] = state.z[4] + model.c12 * (grounds1bn0_y * t1225 + grounds2bn0_y * t1223);
+  closed.z[5] = state.z[5] - model.c19 * (t456 * t1229 - (grounds1bn0_z * t1225 + grounds2bn0_z * t1223));
+  closed.regularity = -(Real(1.0) / (t594 * (t563 * t581)) * Real(0.5333333333333331));
+  closed.opening = t637 * t637 + t639 * t639 + (t634 * t634 + (t638 * t638 +
+      (detail::where_negative(groundggt, Real(1.0)) + (detail::where_negative(groundggj + groundggj_2,
+      Real(1.0)) + (groundgm * groundgm + groundgm_2 * groundgm_2)))) + (t635 * t635 + t636 * t636));
   state = closed;
 }
 
@@ -1545,16 +1503,16 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real groundgs_zz = Real(1.0) - q0r2_y * q0r2_y;
   const Real expression_3 = expression_2 * model.c6;
   const Real expression_6 = expression_3 * expression_5;
-  const Real expression_8 = expression_5 * expression_7 * model.c7;
+  const Real expression_8 = expression_7 * (expression_5 * model.c7);
   const Real expression_9 = expression_7 * model.hill;
   const Real expression_11 = model.wave * expression_10;
   const Real expression_12 = expression_9 * expression_11;
   const Real expression_13 = expression_3 * expression_11;
-  const Real expression_14 = expression_5 * expression_9 * model.c9;
+  const Real expression_14 = expression_9 * (expression_5 * model.c9);
   const Real groundg0e_x = groundgs_xy * expression_12 - (groundgs_xz + groundgs_xx * expression_6);
   const Real groundg0e_y = groundgs_yy * expression_12 + (groundgs_yz - groundgs_xy * expression_6);
-  const Real groundg0u = expression_6 * (groundgs_xz - groundg0e_x) + (groundgs_zz + expression_12 *
-      (groundgs_yz + groundg0e_y));
+  const Real groundg0u = expression_12 * (groundgs_yz + groundg0e_y) + (groundgs_zz + expression_6 *
+      (groundgs_xz - groundg0e_x));
   const Real groundg0r = detail::square_root(groundg0u);
   const Real groundg0i = Real(1.0) / groundg0r;
   const Real groundg0q_x = groundg0e_x * groundg0i;
@@ -1576,12 +1534,10 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real groundg0j_4 = Real(1.0) + groundg0l * groundg0k_4;
   const Real groundg0t = groundg0j * groundg0j_4 - groundg0j_2 * groundg0j_3;
   const Real groundg0d = Real(1.0) / groundg0t;
-  const Real groundg0a = groundg0j_4 * groundg0d;
-  const Real groundg0a_2 = groundg0j_2 * groundg0d;
-  const Real groundg0a_3 = groundg0j_3 * groundg0d;
-  const Real groundg0a_4 = groundg0j * groundg0d;
-  const Real groundgc = groundg0f_2 * groundg0a_2 + (state.y[0] - groundg0f * groundg0a);
-  const Real groundgc_2 = groundg0f_2 * groundg0a_4 - (state.y[1] + groundg0f * groundg0a_3);
+  const Real groundgc = groundg0d * (groundg0f_2 * groundg0j_2) + (state.y[0] - groundg0d * (groundg0f *
+      groundg0j_4));
+  const Real groundgc_2 = groundg0d * (groundg0f_2 * groundg0j) - (state.y[1] + groundg0d * (groundg0f *
+      groundg0j_3));
   const Real expression_15 = model.wave * groundgc;
   Real expression_21, expression_16;
   detail::sine_cosine(expression_15, expression_21, expression_16);
@@ -1590,17 +1546,17 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   Real expression_24, expression_19;
   detail::sine_cosine(expression_18, expression_24, expression_19);
   const Real expression_20 = expression_17 * expression_19;
-  const Real expression_22 = model.c7 * (expression_19 * expression_21);
+  const Real expression_22 = expression_21 * (model.c7 * expression_19);
   const Real expression_23 = model.hill * expression_21;
   const Real expression_25 = model.wave * expression_24;
   const Real expression_26 = expression_23 * expression_25;
   const Real expression_27 = expression_17 * expression_25;
-  const Real expression_28 = model.c9 * (expression_19 * expression_23);
+  const Real expression_28 = expression_23 * (model.c9 * expression_19);
   const Real groundg1e_x = groundgs_xy * expression_26 + (groundgs_xz + groundgs_xx * expression_20);
   const Real groundg1e_y = groundgs_yy * expression_26 - (groundgs_yz - groundgs_xy * expression_20);
-  const Real groundg1u = expression_20 * (groundgs_xz + groundg1e_x) + (groundgs_zz - expression_26 *
-      (groundgs_yz - groundg1e_y));
-  const Real groundg1r = detail::square_root(groundg1u);
+  const Real groundg1u = expression_26 * (groundgs_yz - groundg1e_y) - (groundgs_zz + expression_20 *
+      (groundgs_xz + groundg1e_x));
+  const Real groundg1r = detail::square_root(-groundg1u);
   const Real groundg1i = Real(1.0) / groundg1r;
   const Real groundg1q_x = groundg1e_x * groundg1i;
   const Real groundg1q_y = groundg1e_y * groundg1i;
@@ -1610,23 +1566,21 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real groundg1f_2 = model.radius * groundg1q_y + (state.y[1] + groundgc_2);
   const Real groundg1p_2 = groundgs_xy - groundg1q_x * groundg1q_y;
   const Real groundg1p_3 = groundgs_yy - groundg1q_y * groundg1q_y;
-  const Real t160 = expression_27 * groundg1p_2;
-  const Real groundg1k = expression_22 * groundg1p - t160;
+  const Real t161 = expression_27 * groundg1p_2;
+  const Real groundg1k = expression_22 * groundg1p - t161;
   const Real groundg1j = Real(1.0) + groundg1l * groundg1k;
   const Real groundg1k_2 = expression_27 * groundg1p - expression_28 * groundg1p_2;
   const Real groundg1j_2 = groundg1l * groundg1k_2;
   const Real groundg1k_3 = expression_22 * groundg1p_2 - expression_27 * groundg1p_3;
   const Real groundg1j_3 = groundg1l * groundg1k_3;
-  const Real groundg1k_4 = t160 - expression_28 * groundg1p_3;
+  const Real groundg1k_4 = t161 - expression_28 * groundg1p_3;
   const Real groundg1j_4 = Real(1.0) - groundg1l * groundg1k_4;
   const Real groundg1t = groundg1j * groundg1j_4 + groundg1j_2 * groundg1j_3;
   const Real groundg1d = Real(1.0) / groundg1t;
-  const Real groundg1a = groundg1j_4 * groundg1d;
-  const Real groundg1a_2 = groundg1j_2 * groundg1d;
-  const Real groundg1a_3 = groundg1j_3 * groundg1d;
-  const Real groundg1a_4 = groundg1j * groundg1d;
-  const Real groundgc_3 = groundg1f_2 * groundg1a_2 + (groundgc + groundg1f * groundg1a);
-  const Real groundgc_4 = groundg1f_2 * groundg1a_4 - (groundgc_2 + groundg1f * groundg1a_3);
+  const Real groundgc_3 = groundg1d * (groundg1f_2 * groundg1j_2) + (groundgc + groundg1d * (groundg1f *
+      groundg1j_4));
+  const Real groundgc_4 = groundg1d * (groundg1f_2 * groundg1j) - (groundgc_2 + groundg1d * (groundg1f *
+      groundg1j_3));
   const Real expression_29 = model.wave * groundgc_3;
   Real expression_35, expression_30;
   detail::sine_cosine(expression_29, expression_35, expression_30);
@@ -1635,16 +1589,16 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   Real expression_38, expression_33;
   detail::sine_cosine(expression_32, expression_38, expression_33);
   const Real expression_34 = expression_31 * expression_33;
-  const Real expression_36 = model.c7 * (expression_33 * expression_35);
+  const Real expression_36 = expression_35 * (model.c7 * expression_33);
   const Real expression_37 = model.hill * expression_35;
   const Real expression_39 = model.wave * expression_38;
   const Real expression_40 = expression_37 * expression_39;
   const Real expression_41 = expression_31 * expression_39;
-  const Real expression_42 = model.c9 * (expression_33 * expression_37);
+  const Real expression_42 = expression_37 * (model.c9 * expression_33);
   const Real groundg2e_x = groundgs_xy * expression_40 - (groundgs_xz + groundgs_xx * expression_34);
   const Real groundg2e_y = groundgs_yy * expression_40 + (groundgs_yz - groundgs_xy * expression_34);
-  const Real groundg2u = expression_34 * (groundgs_xz - groundg2e_x) + (groundgs_zz + expression_40 *
-      (groundgs_yz + groundg2e_y));
+  const Real groundg2u = expression_40 * (groundgs_yz + groundg2e_y) + (groundgs_zz + expression_34 *
+      (groundgs_xz - groundg2e_x));
   const Real groundg2r = detail::square_root(groundg2u);
   const Real groundg2i = Real(1.0) / groundg2r;
   const Real groundg2q_x = groundg2e_x * groundg2i;
@@ -1655,23 +1609,21 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real groundg2f_2 = model.radius * groundg2q_y - (state.y[1] - groundgc_4);
   const Real groundg2p_2 = groundgs_xy - groundg2q_x * groundg2q_y;
   const Real groundg2p_3 = groundgs_yy - groundg2q_y * groundg2q_y;
-  const Real t240 = expression_41 * groundg2p_2;
-  const Real groundg2k = expression_36 * groundg2p + t240;
+  const Real t241 = expression_41 * groundg2p_2;
+  const Real groundg2k = expression_36 * groundg2p + t241;
   const Real groundg2j = Real(1.0) + groundg2l * groundg2k;
   const Real groundg2k_2 = expression_41 * groundg2p + expression_42 * groundg2p_2;
   const Real groundg2j_2 = groundg2l * groundg2k_2;
   const Real groundg2k_3 = expression_36 * groundg2p_2 + expression_41 * groundg2p_3;
   const Real groundg2j_3 = groundg2l * groundg2k_3;
-  const Real groundg2k_4 = t240 + expression_42 * groundg2p_3;
+  const Real groundg2k_4 = t241 + expression_42 * groundg2p_3;
   const Real groundg2j_4 = Real(1.0) + groundg2l * groundg2k_4;
   const Real groundg2t = groundg2j * groundg2j_4 - groundg2j_2 * groundg2j_3;
   const Real groundg2d = Real(1.0) / groundg2t;
-  const Real groundg2a = groundg2j_4 * groundg2d;
-  const Real groundg2a_2 = groundg2j_2 * groundg2d;
-  const Real groundg2a_3 = groundg2j_3 * groundg2d;
-  const Real groundg2a_4 = groundg2j * groundg2d;
-  const Real groundgc_5 = groundg2f_2 * groundg2a_2 + (groundgc_3 - groundg2f * groundg2a);
-  const Real groundgc_6 = groundg2f_2 * groundg2a_4 - (groundgc_4 + groundg2f * groundg2a_3);
+  const Real groundgc_5 = groundg2d * (groundg2f_2 * groundg2j_2) + (groundgc_3 - groundg2d * (groundg2f *
+      groundg2j_4));
+  const Real groundgc_6 = groundg2d * (groundg2f_2 * groundg2j) - (groundgc_4 + groundg2d * (groundg2f *
+      groundg2j_3));
   const Real expression_43 = model.wave * groundgc_5;
   Real expression_49, expression_44;
   detail::sine_cosine(expression_43, expression_49, expression_44);
@@ -1680,17 +1632,17 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   Real expression_52, expression_47;
   detail::sine_cosine(expression_46, expression_52, expression_47);
   const Real expression_48 = expression_45 * expression_47;
-  const Real expression_50 = model.c7 * (expression_47 * expression_49);
+  const Real expression_50 = expression_49 * (model.c7 * expression_47);
   const Real expression_51 = model.hill * expression_49;
   const Real expression_53 = model.wave * expression_52;
   const Real expression_54 = expression_51 * expression_53;
   const Real expression_55 = expression_45 * expression_53;
-  const Real expression_56 = model.c9 * (expression_47 * expression_51);
+  const Real expression_56 = expression_51 * (model.c9 * expression_47);
   const Real groundg3e_x = groundgs_xy * expression_54 + (groundgs_xz + groundgs_xx * expression_48);
   const Real groundg3e_y = groundgs_yy * expression_54 - (groundgs_yz - groundgs_xy * expression_48);
-  const Real groundg3u = expression_48 * (groundgs_xz + groundg3e_x) + (groundgs_zz - expression_54 *
-      (groundgs_yz - groundg3e_y));
-  const Real groundg3r = detail::square_root(groundg3u);
+  const Real groundg3u = expression_54 * (groundgs_yz - groundg3e_y) - (groundgs_zz + expression_48 *
+      (groundgs_xz + groundg3e_x));
+  const Real groundg3r = detail::square_root(-groundg3u);
   const Real groundg3i = Real(1.0) / groundg3r;
   const Real groundg3q_x = groundg3e_x * groundg3i;
   const Real groundg3q_y = groundg3e_y * groundg3i;
@@ -1700,23 +1652,21 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real groundg3f_2 = model.radius * groundg3q_y + (state.y[1] + groundgc_6);
   const Real groundg3p_2 = groundgs_xy - groundg3q_x * groundg3q_y;
   const Real groundg3p_3 = groundgs_yy - groundg3q_y * groundg3q_y;
-  const Real t320 = expression_55 * groundg3p_2;
-  const Real groundg3k = expression_50 * groundg3p - t320;
+  const Real t322 = expression_55 * groundg3p_2;
+  const Real groundg3k = expression_50 * groundg3p - t322;
   const Real groundg3j = Real(1.0) + groundg3l * groundg3k;
   const Real groundg3k_2 = expression_55 * groundg3p - expression_56 * groundg3p_2;
   const Real groundg3j_2 = groundg3l * groundg3k_2;
   const Real groundg3k_3 = expression_50 * groundg3p_2 - expression_55 * groundg3p_3;
   const Real groundg3j_3 = groundg3l * groundg3k_3;
-  const Real groundg3k_4 = t320 - expression_56 * groundg3p_3;
+  const Real groundg3k_4 = t322 - expression_56 * groundg3p_3;
   const Real groundg3j_4 = Real(1.0) - groundg3l * groundg3k_4;
   const Real groundg3t = groundg3j * groundg3j_4 + groundg3j_2 * groundg3j_3;
   const Real groundg3d = Real(1.0) / groundg3t;
-  const Real groundg3a = groundg3j_4 * groundg3d;
-  const Real groundg3a_2 = groundg3j_2 * groundg3d;
-  const Real groundg3a_3 = groundg3j_3 * groundg3d;
-  const Real groundg3a_4 = groundg3j * groundg3d;
-  const Real groundgc_7 = groundg3f_2 * groundg3a_2 + (groundgc_5 + groundg3f * groundg3a);
-  const Real groundgc_8 = groundg3f_2 * groundg3a_4 - (groundgc_6 + groundg3f * groundg3a_3);
+  const Real groundgc_7 = groundg3d * (groundg3f_2 * groundg3j_2) + (groundgc_5 + groundg3d * (groundg3f *
+      groundg3j_4));
+  const Real groundgc_8 = groundg3d * (groundg3f_2 * groundg3j) - (groundgc_6 + groundg3d * (groundg3f *
+      groundg3j_3));
   const Real expression_57 = model.wave * groundgc_7;
   Real expression_58, expression_63;
   detail::sine_cosine(expression_57, expression_58, expression_63);
@@ -1725,38 +1675,38 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   Real expression_65, expression_61;
   detail::sine_cosine(expression_60, expression_65, expression_61);
   const Real expression_62 = expression_59 * expression_61;
-  const Real expression_64 = model.c6 * (expression_61 * expression_63);
-  const Real expression_66 = model.wave * (expression_59 * expression_65);
+  const Real expression_64 = expression_63 * (model.c6 * expression_61);
+  const Real expression_66 = expression_59 * (model.wave * expression_65);
   const Real groundgge_x = groundgs_xy * expression_66 - (groundgs_xz + groundgs_xx * expression_64);
   const Real groundgge_y = groundgs_yy * expression_66 + (groundgs_yz - groundgs_xy * expression_64);
   const Real groundgge_z = groundgs_yz * expression_66 + (groundgs_zz + groundgs_xz * expression_64);
   const Real groundggu = expression_66 * groundgge_y + (groundgge_z - expression_64 * groundgge_x);
   const Real groundggr = detail::square_root(groundggu);
   const Real groundgo = Real(1.0) + expression_66 * expression_66;
-  const Real t383 = expression_64 * expression_64;
-  const Real groundgo_2 = groundgo + t383;
+  const Real t385 = expression_64 * expression_64;
+  const Real groundgo_2 = groundgo + t385;
   const Real groundgo_3 = Real(1.0) / detail::square_root(groundgo_2);
-  const Real groundgv = state.y[2] - (model.radius * groundggr - (expression_66 * (state.y[1] - groundgc_8) -
-      (expression_62 + expression_64 * (state.y[0] - groundgc_7))));
+  const Real groundgv = model.radius * groundggr + (expression_62 - state.y[2] + (expression_64 * (state.y[0]
+      - groundgc_7) - expression_66 * (state.y[1] - groundgc_8)));
   const Real g_ground = groundgo_3 * groundgv;
-  const Real t399 = state.y[3] * Real(0.5);
-  const Real t400 = state.y[4] * Real(0.5);
-  const Real t401 = state.y[5] * Real(0.5);
-  const Real t402 = state.y[6] * Real(0.5);
+  const Real t401 = state.y[3] * Real(0.5);
+  const Real t402 = state.y[4] * Real(0.5);
+  const Real t403 = state.y[5] * Real(0.5);
+  const Real t404 = state.y[6] * Real(0.5);
   const Real groundggi = Real(1.0) / groundggr;
-  const Real t407 = groundgo_3 * groundggi * model.c18;
+  const Real t409 = groundggi * (groundgo_3 * model.c18);
   const Real t410 = Real(2.0) * state.y[3];
-  const Real t413 = expression_66 + expression_66;
-  const Real t414 = q0r1_y * t413;
-  const Real t416 = expression_64 + expression_64;
-  const Real t424 = t407 * (q0r2_y * t416 - (t383 * (q0r0_y + q0r0_y) + expression_64 * t414));
-  const Real t425 = t407 * (q0r0_y * t416 + (t414 - (q0r2_y + q0r2_y)));
-  const Real t427 = q0d1 * t425;
-  const Real t428 = q0d3 * t425;
-  const Real t432 = t428 + q0d1 * t424;
-  const Real t437 = t427 - q0d3 * t424;
-  const Real t442 = t413 * t427 - (t410 * t425 + q0d2 * t424);
-  const Real t447 = t413 * t428 - (q0d2 * t425 - t410 * t424);
+  const Real t412 = expression_66 + expression_66;
+  const Real t413 = q0r1_y * t412;
+  const Real t415 = expression_64 + expression_64;
+  const Real t423 = t409 * (expression_64 * t413 + (t385 * (q0r0_y + q0r0_y) - q0r2_y * t415));
+  const Real t424 = t409 * (q0r0_y * t415 + (t413 - (q0r2_y + q0r2_y)));
+  const Real t426 = q0d1 * t424;
+  const Real t427 = q0d3 * t424;
+  const Real t431 = t427 - q0d1 * t423;
+  const Real t436 = t426 + q0d3 * t423;
+  const Real t441 = t412 * t426 - (t410 * t424 - q0d2 * t423);
+  const Real t446 = t412 * t427 - (q0d2 * t424 + t410 * t423);
   const Real q022 = state.y[5] * q0d2;
   const Real q013 = state.y[4] * q0d3;
   const Real q002 = q0d2 * state.y[3];
@@ -1766,17 +1716,14 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real q0r1_z = q023 - q001;
   const Real q0r2_x = q013 - q002;
   const Real q0r2_z = t16 + q022;
-  const Real groundggq_x = groundgge_x * groundggi;
-  const Real groundggq_y = groundgge_y * groundggi;
-  const Real groundggq_z = groundgge_z * groundggi;
   const Real groundgo_4 = Real(1.0) / detail::square_root(groundgo);
   const Real groundgo_5 = groundgo_3 * groundgo_4;
   const Real groundgy_x = groundgo * groundgo_5;
-  const Real groundgy_y = expression_64 * expression_66 * groundgo_5;
+  const Real groundgy_y = groundgo_5 * (expression_64 * expression_66);
   const Real groundgy_z = expression_64 * groundgo_5;
-  const Real groundgv_x = model.radius * groundggq_x;
-  const Real groundgv_y = model.radius * groundggq_y;
-  const Real groundgv_z = model.radius * groundggq_z;
+  const Real groundgv_x = groundggi * (model.radius * groundgge_x);
+  const Real groundgv_y = groundggi * (model.radius * groundgge_y);
+  const Real groundgv_z = groundggi * (model.radius * groundgge_z);
   const Real t480 = groundgy_x * groundgv_y - groundgy_y * groundgv_x;
   const Real t484 = groundgy_x * groundgv_z - groundgy_z * groundgv_x;
   const Real t488 = groundgy_y * groundgv_z - groundgy_z * groundgv_y;
@@ -1788,18 +1735,18 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real grounds2bn0_x = q0r0_x * t505 + groundgv_x * (q0r1_x * groundgz_z + q0r2_x * groundgo_4);
   const Real grounds2bn0_y = q0r0_y * t505 + groundgv_x * (q0r1_y * groundgz_z - q0r2_y * groundgo_4);
   const Real grounds2bn0_z = q0r0_z * t505 - groundgv_x * (q0r1_z * groundgz_z - q0r2_z * groundgo_4);
-  const Real grounds0 = grounds1bn0_z * state.z[5] + (grounds1bn0_y * state.z[4] - (grounds1bn0_x * state.z[3]
-      - (groundgy_z * state.z[2] + (groundgy_x * state.z[0] + groundgy_y * state.z[1]))));
-  const Real grounds1 = grounds2bn0_z * state.z[5] + (grounds2bn0_y * state.z[4] - (grounds2bn0_x * state.z[3]
-      - (groundgo_4 * state.z[1] - groundgz_z * state.z[2])));
-  g[0] = g_ground;
+  const Real grounds0 = grounds1bn0_x * state.z[3] - (groundgy_z * state.z[2] + (groundgy_x * state.z[0] +
+      groundgy_y * state.z[1])) - (grounds1bn0_y * state.z[4] + grounds1bn0_z * state.z[5]);
+  const Real grounds1 = grounds2bn0_x * state.z[3] - (groundgo_4 * state.z[1] - groundgz_z * state.z[2]) -
+      (grounds2bn0_y * state.z[4] + grounds2bn0_z * state.z[5]);
+  g[0] = -g_ground;
   g[1] = Real(0.0);
   g[2] = Real(0.0);
-  g_rate[0] = (t399 * t447 + (t401 * t442 + (t400 * t432 + t402 * t437))) * state.z[5] - ((t401 * t447 - (t399
-      * t442 - (t402 * t432 - t400 * t437))) * state.z[3] - (groundgo_3 * state.z[2] - (expression_64 *
-      groundgo_3 * state.z[0] - expression_66 * groundgo_3 * state.z[1])));
-  g_rate[1] = grounds0;
-  g_rate[2] = grounds1;
+  g_rate[0] = (t402 * t431 + t404 * t436 + (t403 * t441 + t401 * t446)) * state.z[5] - ((t404 * t431 - t402 *
+      t436 - (t401 * t441 - t403 * t446)) * state.z[3] - (groundgo_3 * state.z[2] - (groundgo_3 *
+      (expression_64 * state.z[0]) - groundgo_3 * (expression_66 * state.z[1]))));
+  g_rate[1] = -grounds0;
+  g_rate[2] = -grounds1;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -1830,16 +1777,16 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real groundgs_zz = Real(1.0) - q0r2_y * q0r2_y;
   const Real expression_3 = expression_2 * model.c6;
   const Real expression_6 = expression_3 * expression_5;
-  const Real expression_8 = expression_5 * expression_7 * model.c7;
+  const Real expression_8 = expression_7 * (expression_5 * model.c7);
   const Real expression_9 = expression_7 * model.hill;
   const Real expression_11 = model.wave * expression_10;
   const Real expression_12 = expression_9 * expression_11;
   const Real expression_13 = expression_3 * expression_11;
-  const Real expression_14 = expression_5 * expression_9 * model.c9;
+  const Real expression_14 = expression_9 * (expression_5 * model.c9);
   const Real groundg0e_x = groundgs_xy * expression_12 - (groundgs_xz + groundgs_xx * expression_6);
   const Real groundg0e_y = groundgs_yy * expression_12 + (groundgs_yz - groundgs_xy * expression_6);
-  const Real groundg0u = expression_6 * (groundgs_xz - groundg0e_x) + (groundgs_zz + expression_12 *
-      (groundgs_yz + groundg0e_y));
+  const Real groundg0u = expression_12 * (groundgs_yz + groundg0e_y) + (groundgs_zz + expression_6 *
+      (groundgs_xz - groundg0e_x));
   const Real groundg0r = detail::square_root(groundg0u);
   const Real groundg0i = Real(1.0) / groundg0r;
   const Real groundg0q_x = groundg0e_x * groundg0i;
@@ -1861,12 +1808,10 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real groundg0j_4 = Real(1.0) + groundg0l * groundg0k_4;
   const Real groundg0t = groundg0j * groundg0j_4 - groundg0j_2 * groundg0j_3;
   const Real groundg0d = Real(1.0) / groundg0t;
-  const Real groundg0a = groundg0j_4 * groundg0d;
-  const Real groundg0a_2 = groundg0j_2 * groundg0d;
-  const Real groundg0a_3 = groundg0j_3 * groundg0d;
-  const Real groundg0a_4 = groundg0j * groundg0d;
-  const Real groundgc = groundg0f_2 * groundg0a_2 + (state.y[0] - groundg0f * groundg0a);
-  const Real groundgc_2 = groundg0f_2 * groundg0a_4 - (state.y[1] + groundg0f * groundg0a_3);
+  const Real groundgc = groundg0d * (groundg0f_2 * groundg0j_2) + (state.y[0] - groundg0d * (groundg0f *
+      groundg0j_4));
+  const Real groundgc_2 = groundg0d * (groundg0f_2 * groundg0j) - (state.y[1] + groundg0d * (groundg0f *
+      groundg0j_3));
   const Real expression_15 = model.wave * groundgc;
   Real expression_21, expression_16;
   detail::sine_cosine(expression_15, expression_21, expression_16);
@@ -1875,17 +1820,17 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   Real expression_24, expression_19;
   detail::sine_cosine(expression_18, expression_24, expression_19);
   const Real expression_20 = expression_17 * expression_19;
-  const Real expression_22 = model.c7 * (expression_19 * expression_21);
+  const Real expression_22 = expression_21 * (model.c7 * expression_19);
   const Real expression_23 = model.hill * expression_21;
   const Real expression_25 = model.wave * expression_24;
   const Real expression_26 = expression_23 * expression_25;
   const Real expression_27 = expression_17 * expression_25;
-  const Real expression_28 = model.c9 * (expression_19 * expression_23);
+  const Real expression_28 = expression_23 * (model.c9 * expression_19);
   const Real groundg1e_x = groundgs_xy * expression_26 + (groundgs_xz + groundgs_xx * expression_20);
   const Real groundg1e_y = groundgs_yy * expression_26 - (groundgs_yz - groundgs_xy * expression_20);
-  const Real groundg1u = expression_20 * (groundgs_xz + groundg1e_x) + (groundgs_zz - expression_26 *
-      (groundgs_yz - groundg1e_y));
-  const Real groundg1r = detail::square_root(groundg1u);
+  const Real groundg1u = expression_26 * (groundgs_yz - groundg1e_y) - (groundgs_zz + expression_20 *
+      (groundgs_xz + groundg1e_x));
+  const Real groundg1r = detail::square_root(-groundg1u);
   const Real groundg1i = Real(1.0) / groundg1r;
   const Real groundg1q_x = groundg1e_x * groundg1i;
   const Real groundg1q_y = groundg1e_y * groundg1i;
@@ -1895,23 +1840,21 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real groundg1f_2 = model.radius * groundg1q_y + (state.y[1] + groundgc_2);
   const Real groundg1p_2 = groundgs_xy - groundg1q_x * groundg1q_y;
   const Real groundg1p_3 = groundgs_yy - groundg1q_y * groundg1q_y;
-  const Real t160 = expression_27 * groundg1p_2;
-  const Real groundg1k = expression_22 * groundg1p - t160;
+  const Real t161 = expression_27 * groundg1p_2;
+  const Real groundg1k = expression_22 * groundg1p - t161;
   const Real groundg1j = Real(1.0) + groundg1l * groundg1k;
   const Real groundg1k_2 = expression_27 * groundg1p - expression_28 * groundg1p_2;
   const Real groundg1j_2 = groundg1l * groundg1k_2;
   const Real groundg1k_3 = expression_22 * groundg1p_2 - expression_27 * groundg1p_3;
   const Real groundg1j_3 = groundg1l * groundg1k_3;
-  const Real groundg1k_4 = t160 - expression_28 * groundg1p_3;
+  const Real groundg1k_4 = t161 - expression_28 * groundg1p_3;
   const Real groundg1j_4 = Real(1.0) - groundg1l * groundg1k_4;
   const Real groundg1t = groundg1j * groundg1j_4 + groundg1j_2 * groundg1j_3;
   const Real groundg1d = Real(1.0) / groundg1t;
-  const Real groundg1a = groundg1j_4 * groundg1d;
-  const Real groundg1a_2 = groundg1j_2 * groundg1d;
-  const Real groundg1a_3 = groundg1j_3 * groundg1d;
-  const Real groundg1a_4 = groundg1j * groundg1d;
-  const Real groundgc_3 = groundg1f_2 * groundg1a_2 + (groundgc + groundg1f * groundg1a);
-  const Real groundgc_4 = groundg1f_2 * groundg1a_4 - (groundgc_2 + groundg1f * groundg1a_3);
+  const Real groundgc_3 = groundg1d * (groundg1f_2 * groundg1j_2) + (groundgc + groundg1d * (groundg1f *
+      groundg1j_4));
+  const Real groundgc_4 = groundg1d * (groundg1f_2 * groundg1j) - (groundgc_2 + groundg1d * (groundg1f *
+      groundg1j_3));
   const Real expression_29 = model.wave * groundgc_3;
   Real expression_35, expression_30;
   detail::sine_cosine(expression_29, expression_35, expression_30);
@@ -1920,16 +1863,16 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   Real expression_38, expression_33;
   detail::sine_cosine(expression_32, expression_38, expression_33);
   const Real expression_34 = expression_31 * expression_33;
-  const Real expression_36 = model.c7 * (expression_33 * expression_35);
+  const Real expression_36 = expression_35 * (model.c7 * expression_33);
   const Real expression_37 = model.hill * expression_35;
   const Real expression_39 = model.wave * expression_38;
   const Real expression_40 = expression_37 * expression_39;
   const Real expression_41 = expression_31 * expression_39;
-  const Real expression_42 = model.c9 * (expression_33 * expression_37);
+  const Real expression_42 = expression_37 * (model.c9 * expression_33);
   const Real groundg2e_x = groundgs_xy * expression_40 - (groundgs_xz + groundgs_xx * expression_34);
   const Real groundg2e_y = groundgs_yy * expression_40 + (groundgs_yz - groundgs_xy * expression_34);
-  const Real groundg2u = expression_34 * (groundgs_xz - groundg2e_x) + (groundgs_zz + expression_40 *
-      (groundgs_yz + groundg2e_y));
+  const Real groundg2u = expression_40 * (groundgs_yz + groundg2e_y) + (groundgs_zz + expression_34 *
+      (groundgs_xz - groundg2e_x));
   const Real groundg2r = detail::square_root(groundg2u);
   const Real groundg2i = Real(1.0) / groundg2r;
   const Real groundg2q_x = groundg2e_x * groundg2i;
@@ -1940,23 +1883,21 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real groundg2f_2 = model.radius * groundg2q_y - (state.y[1] - groundgc_4);
   const Real groundg2p_2 = groundgs_xy - groundg2q_x * groundg2q_y;
   const Real groundg2p_3 = groundgs_yy - groundg2q_y * groundg2q_y;
-  const Real t240 = expression_41 * groundg2p_2;
-  const Real groundg2k = expression_36 * groundg2p + t240;
+  const Real t241 = expression_41 * groundg2p_2;
+  const Real groundg2k = expression_36 * groundg2p + t241;
   const Real groundg2j = Real(1.0) + groundg2l * groundg2k;
   const Real groundg2k_2 = expression_41 * groundg2p + expression_42 * groundg2p_2;
   const Real groundg2j_2 = groundg2l * groundg2k_2;
   const Real groundg2k_3 = expression_36 * groundg2p_2 + expression_41 * groundg2p_3;
   const Real groundg2j_3 = groundg2l * groundg2k_3;
-  const Real groundg2k_4 = t240 + expression_42 * groundg2p_3;
+  const Real groundg2k_4 = t241 + expression_42 * groundg2p_3;
   const Real groundg2j_4 = Real(1.0) + groundg2l * groundg2k_4;
   const Real groundg2t = groundg2j * groundg2j_4 - groundg2j_2 * groundg2j_3;
   const Real groundg2d = Real(1.0) / groundg2t;
-  const Real groundg2a = groundg2j_4 * groundg2d;
-  const Real groundg2a_2 = groundg2j_2 * groundg2d;
-  const Real groundg2a_3 = groundg2j_3 * groundg2d;
-  const Real groundg2a_4 = groundg2j * groundg2d;
-  const Real groundgc_5 = groundg2f_2 * groundg2a_2 + (groundgc_3 - groundg2f * groundg2a);
-  const Real groundgc_6 = groundg2f_2 * groundg2a_4 - (groundgc_4 + groundg2f * groundg2a_3);
+  const Real groundgc_5 = groundg2d * (groundg2f_2 * groundg2j_2) + (groundgc_3 - groundg2d * (groundg2f *
+      groundg2j_4));
+  const Real groundgc_6 = groundg2d * (groundg2f_2 * groundg2j) - (groundgc_4 + groundg2d * (groundg2f *
+      groundg2j_3));
   const Real expression_43 = model.wave * groundgc_5;
   Real expression_49, expression_44;
   detail::sine_cosine(expression_43, expression_49, expression_44);
@@ -1965,17 +1906,17 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   Real expression_52, expression_47;
   detail::sine_cosine(expression_46, expression_52, expression_47);
   const Real expression_48 = expression_45 * expression_47;
-  const Real expression_50 = model.c7 * (expression_47 * expression_49);
+  const Real expression_50 = expression_49 * (model.c7 * expression_47);
   const Real expression_51 = model.hill * expression_49;
   const Real expression_53 = model.wave * expression_52;
   const Real expression_54 = expression_51 * expression_53;
   const Real expression_55 = expression_45 * expression_53;
-  const Real expression_56 = model.c9 * (expression_47 * expression_51);
+  const Real expression_56 = expression_51 * (model.c9 * expression_47);
   const Real groundg3e_x = groundgs_xy * expression_54 + (groundgs_xz + groundgs_xx * expression_48);
   const Real groundg3e_y = groundgs_yy * expression_54 - (groundgs_yz - groundgs_xy * expression_48);
-  const Real groundg3u = expression_48 * (groundgs_xz + groundg3e_x) + (groundgs_zz - expression_54 *
-      (groundgs_yz - groundg3e_y));
-  const Real groundg3r = detail::square_root(groundg3u);
+  const Real groundg3u = expression_54 * (groundgs_yz - groundg3e_y) - (groundgs_zz + expression_48 *
+      (groundgs_xz + groundg3e_x));
+  const Real groundg3r = detail::square_root(-groundg3u);
   const Real groundg3i = Real(1.0) / groundg3r;
   const Real groundg3q_x = groundg3e_x * groundg3i;
   const Real groundg3q_y = groundg3e_y * groundg3i;
@@ -1985,23 +1926,21 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real groundg3f_2 = model.radius * groundg3q_y + (state.y[1] + groundgc_6);
   const Real groundg3p_2 = groundgs_xy - groundg3q_x * groundg3q_y;
   const Real groundg3p_3 = groundgs_yy - groundg3q_y * groundg3q_y;
-  const Real t320 = expression_55 * groundg3p_2;
-  const Real groundg3k = expression_50 * groundg3p - t320;
+  const Real t322 = expression_55 * groundg3p_2;
+  const Real groundg3k = expression_50 * groundg3p - t322;
   const Real groundg3j = Real(1.0) + groundg3l * groundg3k;
   const Real groundg3k_2 = expression_55 * groundg3p - expression_56 * groundg3p_2;
   const Real groundg3j_2 = groundg3l * groundg3k_2;
   const Real groundg3k_3 = expression_50 * groundg3p_2 - expression_55 * groundg3p_3;
   const Real groundg3j_3 = groundg3l * groundg3k_3;
-  const Real groundg3k_4 = t320 - expression_56 * groundg3p_3;
+  const Real groundg3k_4 = t322 - expression_56 * groundg3p_3;
   const Real groundg3j_4 = Real(1.0) - groundg3l * groundg3k_4;
   const Real groundg3t = groundg3j * groundg3j_4 + groundg3j_2 * groundg3j_3;
   const Real groundg3d = Real(1.0) / groundg3t;
-  const Real groundg3a = groundg3j_4 * groundg3d;
-  const Real groundg3a_2 = groundg3j_2 * groundg3d;
-  const Real groundg3a_3 = groundg3j_3 * groundg3d;
-  const Real groundg3a_4 = groundg3j * groundg3d;
-  const Real groundgc_7 = groundg3f_2 * groundg3a_2 + (groundgc_5 + groundg3f * groundg3a);
-  const Real groundgc_8 = groundg3f_2 * groundg3a_4 - (groundgc_6 + groundg3f * groundg3a_3);
+  const Real groundgc_7 = groundg3d * (groundg3f_2 * groundg3j_2) + (groundgc_5 + groundg3d * (groundg3f *
+      groundg3j_4));
+  const Real groundgc_8 = groundg3d * (groundg3f_2 * groundg3j) - (groundgc_6 + groundg3d * (groundg3f *
+      groundg3j_3));
   const Real expression_57 = model.wave * groundgc_7;
   Real expression_58, expression_62;
   detail::sine_cosine(expression_57, expression_58, expression_62);
@@ -2019,42 +1958,42 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real groundggu = expression_67 * groundgge_y + (groundgge_z - expression_64 * groundgge_x);
   const Real groundggr = detail::square_root(groundggu);
   const Real groundgo = Real(1.0) + expression_67 * expression_67;
-  const Real t382 = expression_64 * expression_64;
-  const Real groundgo_2 = groundgo + t382;
+  const Real t384 = expression_64 * expression_64;
+  const Real groundgo_2 = groundgo + t384;
   const Real groundgo_3 = Real(1.0) / detail::square_root(groundgo_2);
-  const Real t387 = state.y[3] * Real(0.5);
-  const Real t388 = state.y[4] * Real(0.5);
-  const Real t389 = state.y[5] * Real(0.5);
-  const Real t390 = state.y[6] * Real(0.5);
-  const Real t391 = q0r0_y + q0r0_y;
-  const Real t392 = q0r1_y + q0r1_y;
-  const Real t393 = q0r2_y + q0r2_y;
+  const Real t389 = state.y[3] * Real(0.5);
+  const Real t390 = state.y[4] * Real(0.5);
+  const Real t391 = state.y[5] * Real(0.5);
+  const Real t392 = state.y[6] * Real(0.5);
+  const Real t393 = q0r0_y + q0r0_y;
+  const Real t394 = q0r1_y + q0r1_y;
+  const Real t395 = q0r2_y + q0r2_y;
   const Real groundggi = Real(1.0) / groundggr;
-  const Real t395 = Real(0.5) * groundggi;
-  const Real t396 = model.radius * t395;
-  const Real t397 = groundgo_3 * t396;
-  const Real t398 = q0d3 + q0d3;
-  const Real t399 = Real(2.0) * state.y[3];
-  const Real t400 = expression_64 * expression_67;
-  const Real t402 = expression_67 + expression_67;
-  const Real t404 = q0r1_y * t402;
-  const Real t405 = t400 + t400;
-  const Real t409 = q0r0_y * t405 - (q0r2_y * t402 - expression_67 * t404);
-  const Real t411 = expression_64 + expression_64;
-  const Real t414 = q0r2_y * t411 - (t382 * t391 + q0r1_y * t405);
-  const Real t415 = q0r0_y * t411;
-  const Real t416 = t393 - t404;
-  const Real t417 = t415 - t416;
-  const Real t418 = t397 * t409;
-  const Real t419 = t397 * t414;
-  const Real t420 = t397 * t417;
-  const Real t421 = q0d1 + q0d1;
-  const Real t428 = q0d3 * t420 + q0d1 * t419;
-  const Real t433 = q0d1 * t420 - q0d3 * t419;
-  const Real t438 = t418 * t421 - (t399 * t420 + q0d2 * t419);
-  const Real t443 = t398 * t418 - (q0d2 * t420 - t399 * t419);
-  const Real t447 = t389 * t443 - (t387 * t438 - (t390 * t428 - t388 * t433));
-  const Real t451 = t387 * t443 + (t389 * t438 + (t388 * t428 + t390 * t433));
+  const Real t397 = Real(0.5) * groundggi;
+  const Real t398 = model.radius * t397;
+  const Real t399 = groundgo_3 * t398;
+  const Real t400 = q0d3 + q0d3;
+  const Real t401 = Real(2.0) * state.y[3];
+  const Real t402 = expression_64 * expression_67;
+  const Real t404 = expression_67 + expression_67;
+  const Real t406 = q0r1_y * t404;
+  const Real t407 = t402 + t402;
+  const Real t411 = q0r0_y * t407 - (q0r2_y * t404 - expression_67 * t406);
+  const Real t413 = expression_64 + expression_64;
+  const Real t416 = q0r1_y * t407 + (t384 * t393 - q0r2_y * t413);
+  const Real t417 = q0r0_y * t413;
+  const Real t418 = t395 - t406;
+  const Real t419 = t417 - t418;
+  const Real t420 = t399 * t411;
+  const Real t421 = t399 * t416;
+  const Real t422 = t399 * t419;
+  const Real t423 = q0d1 + q0d1;
+  const Real t430 = q0d3 * t422 - q0d1 * t421;
+  const Real t435 = q0d1 * t422 + q0d3 * t421;
+  const Real t440 = t420 * t423 - (t401 * t422 - q0d2 * t421);
+  const Real t445 = t400 * t420 - (q0d2 * t422 + t401 * t421);
+  const Real t449 = t392 * t430 - t390 * t435 - (t389 * t440 - t391 * t445);
+  const Real t453 = t390 * t430 + t392 * t435 + (t391 * t440 + t389 * t445);
   const Real q022 = state.y[5] * q0d2;
   const Real q013 = state.y[4] * q0d3;
   const Real q002 = q0d2 * state.y[3];
@@ -2066,177 +2005,170 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real q0r2_z = t16 + q022;
   const Real groundggq_x = groundgge_x * groundggi;
   const Real groundggq_y = groundgge_y * groundggi;
-  const Real groundggq_z = groundgge_z * groundggi;
   const Real groundgo_4 = Real(1.0) / detail::square_root(groundgo);
   const Real groundgo_5 = groundgo_3 * groundgo_4;
   const Real groundgy_x = groundgo * groundgo_5;
-  const Real groundgy_y = t400 * groundgo_5;
+  const Real groundgy_y = t402 * groundgo_5;
   const Real groundgy_z = expression_64 * groundgo_5;
   const Real groundgv_x = model.radius * groundggq_x;
   const Real groundgv_y = model.radius * groundggq_y;
-  const Real groundgv_z = model.radius * groundggq_z;
-  const Real t476 = groundgy_x * groundgv_y - groundgy_y * groundgv_x;
-  const Real t480 = groundgy_x * groundgv_z - groundgy_z * groundgv_x;
-  const Real t484 = groundgy_y * groundgv_z - groundgy_z * groundgv_y;
-  const Real grounds1bn0_x = q0r0_x * t484 - (q0r2_x * t476 - q0r1_x * t480);
-  const Real grounds1bn0_y = q0r0_y * t484 + (q0r2_y * t476 + q0r1_y * t480);
-  const Real grounds1bn0_z = q0r0_z * t484 - (q0r2_z * t476 + q0r1_z * t480);
+  const Real t474 = model.radius * groundgge_z;
+  const Real groundgv_z = groundggi * t474;
+  const Real t478 = groundgy_x * groundgv_y - groundgy_y * groundgv_x;
+  const Real t482 = groundgy_x * groundgv_z - groundgy_z * groundgv_x;
+  const Real t486 = groundgy_y * groundgv_z - groundgy_z * groundgv_y;
+  const Real grounds1bn0_x = q0r0_x * t486 - (q0r2_x * t478 - q0r1_x * t482);
+  const Real grounds1bn0_y = q0r0_y * t486 + (q0r2_y * t478 + q0r1_y * t482);
+  const Real grounds1bn0_z = q0r0_z * t486 - (q0r2_z * t478 + q0r1_z * t482);
   const Real groundgz_z = expression_67 * groundgo_4;
-  const Real t501 = groundgo_4 * groundgv_z + groundgv_y * groundgz_z;
-  const Real t505 = q0r1_x * groundgz_z + q0r2_x * groundgo_4;
-  const Real grounds2bn0_x = q0r0_x * t501 + groundgv_x * t505;
-  const Real t511 = q0r1_y * groundgz_z - q0r2_y * groundgo_4;
-  const Real grounds2bn0_y = q0r0_y * t501 + groundgv_x * t511;
-  const Real t517 = q0r1_z * groundgz_z - q0r2_z * groundgo_4;
-  const Real grounds2bn0_z = q0r0_z * t501 - groundgv_x * t517;
-  const Real t526 = groundgo_3 * groundgo_3;
-  const Real t530 = grounds1bn0_x * model.c11;
-  const Real t531 = grounds1bn0_z * model.c11;
-  const Real t534 = t447 * t530 + t451 * t531;
-  const Real t543 = grounds2bn0_x * model.c11;
-  const Real t544 = grounds2bn0_y * model.c12;
-  const Real t545 = grounds2bn0_z * model.c11;
-  const Real t548 = t447 * t543 + t451 * t545;
-  const Real t552 = groundgo_4 * groundgo_4;
-  const Real t564 = Real(1.0) / (groundgo_2 * t526 * model.c13 + model.c11 * (t447 * t447 + t451 * t451) +
-      Real(4.9999999999999995e-11));
-  const Real t565 = t534 * t564;
-  const Real t576 = t548 * t564;
-  const Real t580 = t534 * t576 - (grounds1bn0_z * t545 + (grounds1bn0_x * t543 + grounds1bn0_y * t544));
-  const Real t582 = Real(1.0) / (model.c13 * (groundgy_z * groundgy_z + (groundgy_x * groundgy_x + groundgy_y
-      * groundgy_y)) - (t534 * t565 - (grounds1bn0_z * t531 + (grounds1bn0_x * t530 + grounds1bn0_y *
-      grounds1bn0_y * model.c12)) - Real(1.5000000000000002e-10)));
-  const Real t583 = t580 * t582;
-  const Real t594 = Real(1.0) / (t580 * t583 + (t548 * t576 - (grounds2bn0_z * t545 + (grounds2bn0_y * t544 +
-      (grounds2bn0_x * t543 + model.c13 * (groundgo * t552))))) - Real(2.5e-10));
-  const Real t599 = t390 * state.z[5] + (t388 * state.z[3] + t389 * state.z[4]);
-  const Real t604 = t389 * state.z[5] + (t387 * state.z[3] - t390 * state.z[4]);
-  const Real t609 = t388 * state.z[5] - (t390 * state.z[3] + t387 * state.z[4]);
-  const Real t614 = t387 * state.z[5] - (t389 * state.z[3] - t388 * state.z[4]);
-  const Real expression_68 = expression_58 * expression_61 * model.c14;
+  const Real t503 = groundgo_4 * groundgv_z + groundgv_y * groundgz_z;
+  const Real t507 = q0r1_x * groundgz_z + q0r2_x * groundgo_4;
+  const Real grounds2bn0_x = q0r0_x * t503 + groundgv_x * t507;
+  const Real t513 = q0r1_y * groundgz_z - q0r2_y * groundgo_4;
+  const Real grounds2bn0_y = q0r0_y * t503 + groundgv_x * t513;
+  const Real t519 = q0r1_z * groundgz_z - q0r2_z * groundgo_4;
+  const Real grounds2bn0_z = q0r0_z * t503 - groundgv_x * t519;
+  const Real t528 = groundgo_3 * groundgo_3;
+  const Real t532 = grounds1bn0_x * model.c11;
+  const Real t533 = grounds1bn0_z * model.c11;
+  const Real t536 = t449 * t532 + t453 * t533;
+  const Real t545 = grounds2bn0_x * model.c11;
+  const Real t546 = grounds2bn0_y * model.c12;
+  const Real t547 = grounds2bn0_z * model.c11;
+  const Real t550 = t449 * t545 + t453 * t547;
+  const Real t554 = groundgo_4 * groundgo_4;
+  const Real t566 = Real(1.0) / (model.c11 * (t449 * t449 + t453 * t453) + (t528 * (groundgo_2 * model.c13) +
+      Real(4.9999999999999995e-11)));
+  const Real t567 = t536 * t566;
+  const Real t578 = t550 * t566;
+  const Real t582 = t536 * t578 - (grounds1bn0_z * t547 + (grounds1bn0_x * t545 + grounds1bn0_y * t546));
+  const Real t584 = Real(1.0) / (t536 * t567 - (grounds1bn0_x * t532 + (model.c13 * (groundgy_z * groundgy_z +
+      (groundgy_x * groundgy_x + groundgy_y * groundgy_y)) + Real(1.5000000000000002e-10)) + (grounds1bn0_y *
+      (grounds1bn0_y * model.c12) + grounds1bn0_z * t533)));
+  const Real t585 = t582 * t584;
+  const Real t596 = Real(1.0) / (t582 * t585 - (t550 * t578 - (grounds2bn0_x * t545 + (t554 * (groundgo *
+      model.c13) + Real(2.5e-10)) + (grounds2bn0_y * t546 + grounds2bn0_z * t547))));
+  const Real t601 = t392 * state.z[5] + (t390 * state.z[3] + t391 * state.z[4]);
+  const Real t606 = t391 * state.z[5] + (t389 * state.z[3] - t392 * state.z[4]);
+  const Real t611 = t390 * state.z[5] - (t392 * state.z[3] + t389 * state.z[4]);
+  const Real t616 = t389 * state.z[5] - (t391 * state.z[3] - t390 * state.z[4]);
+  const Real expression_68 = expression_61 * (expression_58 * model.c14);
   const Real expression_69 = expression_63 * expression_66;
-  const Real expression_70 = model.c9 * (expression_59 * expression_61);
+  const Real expression_70 = expression_59 * (model.c9 * expression_61);
   const Real groundggl = model.radius * groundggi;
   const Real groundggp = groundgs_xx - groundggq_x * groundggq_x;
   const Real groundggp_2 = groundgs_xy - groundggq_x * groundggq_y;
   const Real groundggp_3 = groundgs_yy - groundggq_y * groundggq_y;
-  const Real t629 = expression_69 * groundggp_2;
-  const Real groundggk = expression_68 * groundggp + t629;
+  const Real t631 = expression_69 * groundggp_2;
+  const Real groundggk = expression_68 * groundggp + t631;
   const Real groundggj = Real(1.0) + groundggl * groundggk;
   const Real groundggk_2 = expression_69 * groundggp + expression_70 * groundggp_2;
   const Real groundggj_2 = groundggl * groundggk_2;
   const Real groundggk_3 = expression_68 * groundggp_2 + expression_69 * groundggp_3;
   const Real groundggj_3 = groundggl * groundggk_3;
-  const Real groundggk_4 = t629 + expression_70 * groundggp_3;
+  const Real groundggk_4 = t631 + expression_70 * groundggp_3;
   const Real groundggj_4 = Real(1.0) + groundggl * groundggk_4;
   const Real groundggt = groundggj * groundggj_4 - groundggj_2 * groundggj_3;
   const Real groundggd = Real(1.0) / groundggt;
-  const Real groundgga = groundggj_4 * groundggd;
-  const Real groundgga_2 = groundggj_2 * groundggd;
-  const Real groundgga_3 = groundggj_3 * groundggd;
-  const Real groundgga_4 = groundggj * groundggd;
-  const Real t653 = groundggi * groundggi;
-  const Real t655 = t421 * t604;
-  const Real t658 = q0d2 * t604 - q0d1 * t609;
-  const Real t660 = t398 * t614;
-  const Real t662 = q0d3 * t609 - q0d2 * t614;
-  const Real t663 = t399 * t614;
-  const Real t664 = t655 + t660;
-  const Real t668 = q0d3 * t599;
-  const Real t670 = t668 + (t658 - t663);
-  const Real t672 = t399 * t604 - q0d1 * t599;
-  const Real t673 = t662 - t672;
-  const Real t675 = q0r0_y * t664 + q0r1_y * t670;
-  const Real t681 = q0r2_y * t670 - q0r0_y * t673;
-  const Real t683 = q0r2_y * t664 - q0r1_y * t673;
-  const Real t684 = t393 * t673;
-  const Real t686 = expression_64 * t675 + (t404 * t664 - t683);
-  const Real t691 = t681 - (expression_67 * t675 + t415 * t670);
-  const Real t699 = t395 * t653 * (expression_64 * (t681 + t691) + (t684 + expression_67 * (t683 - t686)));
-  const Real t705 = state.z[1] + model.radius * (groundggi * t686 + groundgge_y * t699);
-  const Real t707 = state.z[0] + model.radius * (groundggi * t691 + groundgge_x * t699);
-  const Real t710 = groundgga * t707 - groundgga_2 * t705;
-  const Real t713 = groundgga_3 * t707 - groundgga_4 * t705;
-  const Real t719 = expression_69 * t713 - expression_68 * t710;
-  const Real t721 = expression_70 * t713 - expression_69 * t710;
-  const Real t726 = t402 * t721;
-  const Real t733 = Real(0.5) * (groundgo_4 * t552 * t726);
-  const Real t739 = t411 * t719;
-  const Real t742 = expression_64 * t721 - expression_67 * t719;
-  const Real t750 = Real(0.5) * ((t726 - t739) * (groundgo_3 * t526));
-  const Real t759 = groundgo_4 * t750 + groundgo_3 * t733;
-  const Real t787 = q0r1_y * state.z[4] - (q0r1_x * state.z[3] + q0r1_z * state.z[5]);
-  const Real t793 = q0r0_y * state.z[4] - (q0r0_x * state.z[3] - q0r0_z * state.z[5]);
-  const Real t796 = groundgv_y * t793 - (state.z[2] - groundgv_x * t787);
-  const Real t802 = q0r2_z * state.z[5] - (q0r2_x * state.z[3] + q0r2_y * state.z[4]);
-  const Real t817 = Real(0.5) * t428;
-  const Real t818 = Real(0.5) * t433;
-  const Real t819 = Real(0.5) * t443;
-  const Real t820 = Real(0.5) * t438;
-  const Real t830 = Real(2.0) * t420;
-  const Real t831 = Real(2.0) * t419;
-  const Real t837 = t418 * Real(4.0);
-  const Real t846 = t609 * (q0d2 + q0d2);
-  const Real t854 = t399 * t609 + q0d2 * t599;
-  const Real t858 = q0d1 * t614 + q0d3 * t604;
-  const Real t859 = t662 + t672;
-  const Real t866 = groundgv_x * groundgz_z;
-  const Real t872 = t663 + (t658 - t668);
-  const Real t889 = t392 * t721 - t402 * t664;
-  const Real t905 = groundgs_xy * t719 + (t686 + groundgs_yy * t721);
-  const Real t912 = expression_64 * t681 + (groundgs_xz * t719 + (expression_67 * t683 + (t684 - groundgs_yz *
-      t721)));
-  const Real t915 = groundgs_xx * t719 + (t691 + groundgs_xy * t721);
-  const Real t922 = t395 * (expression_64 * t915 + (t912 - (expression_67 * t905 + (groundgge_y * t721 +
-      groundgge_x * t719))));
-  const Real t927 = t653 * t922;
-  const Real t938 = t854 - t858;
-  const Real t939 = t854 + t858;
-  const Real t948 = groundggl * t915 + model.radius * (groundgge_x * t927);
-  const Real t951 = groundggl * t912 - model.radius * (groundgge_z * t927);
-  const Real t956 = t655 - t846;
-  const Real t957 = t660 - t846;
-  const Real t966 = model.radius * (groundggi * t905 + groundgge_y * t927);
-  const Real rww00 = state.z[4] * state.z[5];
-  const Real rww02 = state.z[3] * state.z[4];
-  const Real t995 = rww00 * model.c20;
-  const Real t996 = rww02 * model.c20;
-  const Real t1007 = t609 * t831 + t599 * t830;
-  const Real t1014 = t599 * t831 - t609 * t830;
-  const Real t1032 = t614 * (t1014 + (Real(0.5) * (t428 * state.z[3] + t438 * state.z[4]) - (state.z[5] * t818
-      + (t614 * t837 - t1014)))) - (t604 * (t1007 + (state.z[5] * t817 + (state.z[4] * t819 + (state.z[3] *
-      t818 + (t604 * t837 + t1007))))) - (t451 * t996 + (t447 * t995 + (groundgo_3 * model.c15 - ((t409 * t664
-      - (t414 * t670 - t417 * t673)) * (t396 * t750 - model.radius * (t922 * (groundgo_3 * (groundggi *
-      t395)))) - (t664 * (t397 * (expression_67 * t889 - (t402 * t673 + (t416 * t721 - (t391 * t742 - t405 *
-      t670))))) - (t397 * t673 * (t411 * t670 + (t391 * t719 + (Real(2.0) * t673 - t889))) + ((Real(2.0) *
-      (t382 * t670) + (t405 * t664 + (t411 * t673 - (t393 * t719 - (t391 * t739 - t392 * t742))))) * (t397 *
-      t670) - (t599 * (state.z[5] * t819 + (state.z[3] * t820 - state.z[4] * t817)) + (t609 * (state.z[5] *
-      t820 + (state.z[4] * t818 - state.z[3] * t819)) + (state.z[0] * (groundgo_3 * t719 + expression_64 *
-      t750) - (state.z[2] * t750 - state.z[1] * (groundgo_3 * t721 - expression_67 * t750)))))))))))));
-  const Real t1051 = t565 * t1032 - (grounds1bn0_z * t996 + (grounds1bn0_x * t995 + (groundgy_z * model.c15 -
-      ((groundgy_y * t793 + groundgy_x * t787) * t951 - (t476 * state.z[5] * t956 + (t484 * state.z[5] * t938
-      - (t480 * state.z[5] * t859 + ((groundgy_z * t793 + groundgy_x * t802) * t966 - (t480 * state.z[3] *
-      t872 + (t484 * state.z[3] * t957 - ((groundgy_z * t787 - groundgy_y * t802) * t948 + (t476 * state.z[3]
-      * t939 + ((groundgo_5 * t726 - groundgo * t759) * (groundgv_y * t802 - (state.z[0] + groundgv_z * t787))
-      + (t670 * (t484 * state.z[4]) + (t664 * (t480 * state.z[4]) - (t673 * (t476 * state.z[4]) + ((groundgo_5
-      * t719 + expression_64 * t759) * t796 - (t400 * t759 - groundgo_5 * t742) * (groundgv_z * t793 +
-      (state.z[1] + groundgv_x * t802)))))))))))))))))));
-  const Real t1066 = t594 * (t583 * t1051 + (t576 * t1032 - (grounds2bn0_z * t996 + (grounds2bn0_x * t995 -
-      (groundgz_z * model.c15 - ((groundgo_4 * t721 - expression_67 * t733) * t796 - (t793 * (groundgo_4 *
-      t951 + (groundgv_z * t733 - groundgz_z * t966)) - (state.z[4] * (groundgv_x * (q0r2_y * t733 -
-      groundgo_4 * t673) + (t511 * t948 - (t664 * t866 + t501 * t670))) - (state.z[5] * (groundgv_x * (q0r2_z
-      * t733 + groundgo_4 * t956) - (t501 * t938 - (t517 * t948 + t859 * t866))) + (state.z[1] * t733 -
-      state.z[3] * (t866 * t872 + (t501 * t957 + (groundgv_x * (q0r2_x * t733 + groundgo_4 * t939) - t505 *
-      t948)))))))))))));
-  const Real t1068 = t582 * t1051 - t583 * t1066;
-  const Real t1072 = t576 * t1066 - (t564 * t1032 + t565 * t1068);
+  const Real t651 = groundggi * groundggi;
+  const Real t653 = t423 * t606;
+  const Real t656 = q0d2 * t606 - q0d1 * t611;
+  const Real t658 = t400 * t616;
+  const Real t660 = q0d3 * t611 - q0d2 * t616;
+  const Real t662 = t653 + t658;
+  const Real t667 = t401 * t616 - q0d3 * t601;
+  const Real t668 = t656 - t667;
+  const Real t670 = t401 * t606 - q0d1 * t601;
+  const Real t671 = t660 - t670;
+  const Real t673 = q0r0_y * t662 + q0r1_y * t668;
+  const Real t678 = q0r2_y * t668 - q0r0_y * t671;
+  const Real t680 = q0r2_y * t662 - q0r1_y * t671;
+  const Real t681 = t395 * t671;
+  const Real t683 = t406 * t662 + (expression_64 * t673 - t680);
+  const Real t688 = t417 * t668 + (expression_67 * t673 - t678);
+  const Real t697 = t651 * (t397 * (expression_67 * (t680 - t683) + (t681 + expression_64 * (t678 - t688))));
+  const Real t703 = state.z[1] + model.radius * (groundggi * t683 + groundgge_y * t697);
+  const Real t705 = state.z[0] - model.radius * (groundggi * t688 - groundgge_x * t697);
+  const Real t710 = groundggd * (groundggj_4 * t705) - groundggd * (groundggj_2 * t703);
+  const Real t715 = groundggd * (groundggj_3 * t705) - groundggd * (groundggj * t703);
+  const Real t719 = expression_69 * t715 - expression_68 * t710;
+  const Real t721 = expression_70 * t715 - expression_69 * t710;
+  const Real t726 = t404 * t721;
+  const Real t734 = t726 * (t554 * (Real(0.5) * groundgo_4));
+  const Real t740 = t413 * t719;
+  const Real t743 = expression_64 * t721 - expression_67 * t719;
+  const Real t751 = (t726 - t740) * (t528 * (groundgo_3 * Real(0.5)));
+  const Real t760 = groundgo_4 * t751 + groundgo_3 * t734;
+  const Real t781 = q0r1_y * state.z[4] - (q0r1_x * state.z[3] + q0r1_z * state.z[5]);
+  const Real t786 = q0r0_x * state.z[3] - (q0r0_z * state.z[5] + q0r0_y * state.z[4]);
+  const Real t789 = groundgv_y * t786 + (state.z[2] - groundgv_x * t781);
+  const Real t794 = q0r2_z * state.z[5] - (q0r2_x * state.z[3] + q0r2_y * state.z[4]);
+  const Real t809 = Real(0.5) * t430;
+  const Real t810 = Real(0.5) * t435;
+  const Real t811 = Real(0.5) * t445;
+  const Real t812 = Real(0.5) * t440;
+  const Real t822 = Real(2.0) * t422;
+  const Real t823 = Real(2.0) * t421;
+  const Real t829 = t420 * Real(4.0);
+  const Real t838 = t611 * (q0d2 + q0d2);
+  const Real t846 = t401 * t611 + q0d2 * t601;
+  const Real t850 = q0d1 * t616 + q0d3 * t606;
+  const Real t851 = t660 + t670;
+  const Real t859 = groundgv_x * groundgz_z;
+  const Real t865 = t656 + t667;
+  const Real t882 = t394 * t721 - t404 * t662;
+  const Real t899 = groundgs_xy * t719 + (t683 + groundgs_yy * t721);
+  const Real t906 = groundgs_xz * t719 - (groundgs_yz * t721 - (expression_64 * t678 + (t681 + expression_67 *
+      t680)));
+  const Real t909 = groundgs_xx * t719 - (t688 - groundgs_xy * t721);
+  const Real t916 = t397 * (t906 - (groundgge_y * t721 + groundgge_x * t719) - (expression_67 * t899 -
+      expression_64 * t909));
+  const Real t922 = t651 * t916;
+  const Real t933 = t846 - t850;
+  const Real t934 = t846 + t850;
+  const Real t944 = groundggl * t909 + t922 * (model.radius * groundgge_x);
+  const Real t946 = groundggl * t906 - t474 * t922;
+  const Real t951 = t653 - t838;
+  const Real t952 = t658 - t838;
+  const Real t963 = model.radius * (groundggi * t899 + groundgge_y * t922);
+  const Real t994 = model.c20 * (state.z[4] * state.z[5]);
+  const Real t996 = model.c20 * (state.z[3] * state.z[4]);
+  const Real t1007 = t611 * t823 - t601 * t822;
+  const Real t1014 = t601 * t823 + t611 * t822;
+  const Real t1032 = (t411 * t662 + (t416 * t668 + t419 * t671)) * (t398 * t751 - t916 * (t397 * (groundggi *
+      (model.radius * groundgo_3)))) - (state.z[0] * (groundgo_3 * t719 + expression_64 * t751) +
+      (expression_67 * t882 + (t393 * t743 - (t418 * t721 + (t404 * t671 + t407 * t668)))) * (t399 * t662) +
+      ((t394 * t743 - (t393 * t740 - (t395 * t719 - (t407 * t662 + (t413 * t671 + t384 * (Real(2.0) *
+      t668)))))) * (t399 * t668) + (t882 - (t393 * t719 + (Real(2.0) * t671 + t413 * t668))) * (t399 * t671) +
+      (state.z[1] * (groundgo_3 * t721 - expression_67 * t751) - (state.z[2] * t751 - (t616 * (Real(0.5) *
+      (t430 * state.z[3] + t440 * state.z[4]) - (t616 * t829 + t1014 + (state.z[5] * t810 + t1014))) +
+      (groundgo_3 * model.c15 + t449 * t994) + (t611 * (state.z[5] * t812 + (state.z[4] * t810 - state.z[3] *
+      t811)) + t453 * t996 + (t601 * (state.z[5] * t811 + (state.z[3] * t812 - state.z[4] * t809)) - t606 *
+      (state.z[5] * t809 + (t606 * t829 - t1007) + (state.z[4] * t811 + (state.z[3] * t810 - t1007))))))))));
+  const Real t1051 = (groundgy_z * t786 - groundgy_x * t794) * t963 + (groundgy_y * t786 - groundgy_x * t781)
+      * t946 + (t567 * t1032 - ((groundgy_z * t781 - groundgy_y * t794) * t944 + ((groundgo_5 * t719 +
+      expression_64 * t760) * t789 - (grounds1bn0_x * t994 - (t478 * (state.z[3] * t934) - t486 * (state.z[3]
+      * t952) - (t482 * (state.z[3] * t865) - t482 * (state.z[5] * t851))) + (grounds1bn0_z * t996 + (t486 *
+      (state.z[5] * t933) + t478 * (state.z[5] * t951) + (t478 * (state.z[4] * t671) + groundgy_z * model.c15
+      - (t482 * (state.z[4] * t662) + t486 * (state.z[4] * t668)))))) + ((t402 * t760 - groundgo_5 * t743) *
+      (groundgv_x * t794 + (state.z[1] - groundgv_z * t786)) + (groundgo_5 * t726 - groundgo * t760) *
+      (groundgv_y * t794 - (state.z[0] + groundgv_z * t781))))));
+  const Real t1066 = t596 * (t786 * (groundgz_z * t963 - (groundgv_z * t734 + groundgo_4 * t946)) +
+      (state.z[3] * (t507 * t944 - (groundgv_x * (q0r2_x * t734 + groundgo_4 * t934) + (t503 * t952 + t859 *
+      t865))) + state.z[5] * (t519 * t944 + (groundgv_x * (q0r2_z * t734 + groundgo_4 * t951) + (t851 * t859 -
+      t503 * t933)))) + (t585 * t1051 - (state.z[4] * (t513 * t944 + (groundgv_x * (q0r2_y * t734 - groundgo_4
+      * t671) - (t662 * t859 + t503 * t668))) + (t578 * t1032 - ((groundgo_4 * t721 - expression_67 * t734) *
+      t789 + (state.z[1] * t734 - (grounds2bn0_z * t996 - (groundgz_z * model.c15 - grounds2bn0_x *
+      t994))))))));
+  const Real t1068 = t584 * t1051 - t585 * t1066;
+  const Real t1072 = t567 * t1068 - (t566 * t1032 - t578 * t1066);
   const Real t1073 = Real(4.9999999999999995e-11) * t1072;
-  const Real t1077 = Real(1.5000000000000002e-10) * t1068 - t565 * t1073;
-  const Real t1084 = t594 * (t583 * t1077 - (Real(2.5e-10) * t1066 + t576 * t1073));
-  const Real t1086 = t582 * t1077 - t583 * t1084;
-  lambda[0] = t576 * t1084 - (t565 * t1086 - (t1072 + t564 * t1073));
-  lambda[1] = t1068 + t1086;
-  lambda[2] = -(t1066 + t1084);
+  const Real t1077 = Real(1.5000000000000002e-10) * t1068 + t567 * t1073;
+  const Real t1084 = t596 * (t585 * t1077 - (Real(2.5e-10) * t1066 + t578 * t1073));
+  const Real t1086 = t584 * t1077 - t585 * t1084;
+  lambda[0] = t567 * t1086 + (t578 * t1084 - (t1072 + t566 * t1073));
+  lambda[1] = t1068 - t1086;
+  lambda[2] = t1066 - t1084;
 }
 
 template <class Real> JOURDAIN_FUNCTION

@@ -285,26 +285,24 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real expression_2 = state.y[0] - input.u[0];
   const Real expression_3 = expression_2 * model.P;
   const Real expression_4 = state.z[3] * model.D;
-  const Real expression_5 = expression_3 + expression_4;
-  const Real expression_6 = expression_5 - state.z[2];
-  const Real expression_7 = detail::smaller(-expression_6, model.supply);
-  const Real expression_8 = detail::larger(expression_7, -model.supply);
-  const Real expression_9 = state.z[1] * model.resistance;
-  const Real expression_10 = expression_8 - expression_9;
-  const Real expression_11 = model.expression * state.z[0];
-  const Real expression_12 = expression_10 - expression_11;
-  const Real expression_13 = expression_12 * model.c6;
-  const Real expression_14 = detail::absolute(expression_6);
-  const Real expression_15 = model.supply - expression_14;
-  const Real expression_16 = expression_2 * model.I;
-  const Real expression_17 = detail::where_negative(-expression_15, expression_16);
-  const Real expression_18 = state.z[3] - state.z[0];
-  const Real expression_19 = expression_18 * model.c8;
+  const Real expression_5 = expression_3 + (expression_4 - state.z[2]);
+  const Real expression_6 = detail::smaller(-expression_5, model.supply);
+  const Real expression_7 = detail::larger(expression_6, -model.supply);
+  const Real expression_8 = state.z[1] * model.resistance;
+  const Real expression_9 = model.expression * state.z[0];
+  const Real expression_10 = expression_7 - (expression_8 + expression_9);
+  const Real expression_11 = expression_10 * model.c6;
+  const Real expression_12 = detail::absolute(expression_5);
+  const Real expression_13 = model.supply - expression_12;
+  const Real expression_14 = expression_2 * model.I;
+  const Real expression_15 = detail::where_negative(-expression_13, expression_14);
+  const Real expression_16 = state.z[3] - state.z[0];
+  const Real expression_17 = expression_16 * model.c8;
   const Real q_0 = expression - c0 * model.lgc0;
   q[0] = -q_0;
-  q[1] = -expression_13;
-  q[2] = expression_17;
-  q[3] = expression_19;
+  q[1] = -expression_11;
+  q[2] = expression_15;
+  q[3] = expression_17;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -313,28 +311,26 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real expression = state.y[0] - input.u[0];
   const Real expression_2 = expression * model.P;
   const Real expression_3 = state.z[3] * model.D;
-  const Real expression_4 = expression_2 + expression_3;
-  const Real expression_5 = expression_4 - state.z[2];
-  const Real expression_6 = detail::smaller(-expression_5, model.supply);
-  const Real expression_7 = detail::larger(expression_6, -model.supply);
-  const Real expression_8 = state.z[1] * model.resistance;
-  const Real expression_9 = expression_7 - expression_8;
-  const Real expression_10 = state.z[0] * model.expression;
-  const Real expression_11 = expression_9 - expression_10;
-  const Real expression_12 = expression_11 * model.c6;
-  const Real expression_13 = detail::absolute(expression_5);
-  const Real expression_14 = model.supply - expression_13;
-  const Real expression_15 = expression * model.I;
-  const Real expression_16 = detail::where_negative(-expression_14, expression_15);
-  const Real expression_17 = state.z[3] - state.z[0];
-  const Real expression_18 = expression_17 * model.c8;
+  const Real expression_4 = expression_2 + (expression_3 - state.z[2]);
+  const Real expression_5 = detail::smaller(-expression_4, model.supply);
+  const Real expression_6 = detail::larger(expression_5, -model.supply);
+  const Real expression_7 = state.z[1] * model.resistance;
+  const Real expression_8 = state.z[0] * model.expression;
+  const Real expression_9 = expression_6 - (expression_7 + expression_8);
+  const Real expression_10 = expression_9 * model.c6;
+  const Real expression_11 = detail::absolute(expression_4);
+  const Real expression_12 = model.supply - expression_11;
+  const Real expression_13 = expression * model.I;
+  const Real expression_14 = detail::where_negative(-expression_12, expression_13);
+  const Real expression_15 = state.z[3] - state.z[0];
+  const Real expression_16 = expression_15 * model.c8;
   const Real c0 = detail::cosine(state.y[0]);
   const Real lg0 = c0 * model.lgc0_2;
   const Real lu0 = lg0 - state.z[1] * model.c11;
   zdot[0] = -lu0;
-  zdot[1] = expression_12;
-  zdot[2] = -expression_16;
-  zdot[3] = -expression_18;
+  zdot[1] = expression_10;
+  zdot[2] = -expression_14;
+  zdot[3] = -expression_16;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -344,29 +340,26 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real expression = state.z[1] * model.expression;
   const Real expression_2 = state.y[0] * model.P;
   const Real expression_3 = state.z[3] * model.D;
-  const Real expression_4 = expression_2 + expression_3;
-  const Real expression_5 = expression_4 - state.z[2];
-  const Real expression_6 = detail::smaller(-expression_5, model.supply);
-  const Real expression_7 = detail::larger(expression_6, -model.supply);
-  const Real expression_8 = state.z[1] * model.resistance;
-  const Real expression_9 = expression_7 - expression_8;
-  const Real expression_10 = model.expression * state.z[0];
-  const Real expression_11 = expression_9 - expression_10;
-  const Real expression_12 = expression_11 * model.c6;
-  const Real expression_13 = detail::absolute(expression_5);
-  const Real expression_14 = model.supply - expression_13;
-  const Real expression_15 = state.y[0] * model.I;
-  const Real expression_16 = detail::where_negative(-expression_14, expression_15);
-  const Real expression_17 = state.z[3] - state.z[0];
-  const Real expression_18 = expression_17 * model.c8;
+  const Real expression_4 = expression_3 + (expression_2 - state.z[2]);
+  const Real expression_5 = detail::smaller(-expression_4, model.supply);
+  const Real expression_6 = detail::larger(expression_5, -model.supply);
+  const Real expression_7 = state.z[1] * model.resistance;
+  const Real expression_8 = model.expression * state.z[0];
+  const Real expression_9 = expression_6 - (expression_7 + expression_8);
+  const Real expression_10 = expression_9 * model.c6;
+  const Real expression_11 = detail::absolute(expression_4);
+  const Real expression_12 = model.supply - expression_11;
+  const Real expression_13 = state.y[0] * model.I;
+  const Real expression_14 = detail::where_negative(-expression_12, expression_13);
+  const Real expression_15 = state.z[3] - state.z[0];
+  const Real expression_16 = expression_15 * model.c8;
   const Real aQp0 = c0 * model.lgc0;
   const Real adn0_z = zdot[0] * model.S0b_zz;
-  const Real aQ0_0 = aQp0 + adn0_z;
-  const Real tau_0_0 = expression - aQ0_0;
-  const Real balance_1 = expression_12 - zdot[1];
-  const Real balance_2 = expression_16 + zdot[2];
-  const Real balance_3 = expression_18 + zdot[3];
-  tau[0] = -tau_0_0;
+  const Real tau_0_0 = aQp0 - (expression - adn0_z);
+  const Real balance_1 = expression_10 - zdot[1];
+  const Real balance_2 = expression_14 + zdot[2];
+  const Real balance_3 = expression_16 + zdot[3];
+  tau[0] = tau_0_0;
   tau[1] = -balance_1;
   tau[2] = balance_2;
   tau[3] = balance_3;
@@ -374,7 +367,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
 
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept {
-  const Real v0T = state.z[0] * state.z[0] * model.c12;
+  const Real v0T = model.c12 * (state.z[0] * state.z[0]);
   return v0T;
 }
 

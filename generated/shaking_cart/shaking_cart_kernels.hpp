@@ -280,11 +280,10 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
     noexcept {
   const detail::Angle<Real> expression = detail::Angle<Real>(state.t) * model.rate;
   const Real s = detail::sine(expression);
-  const Real push1_0 = state.y[0] * Real(900.0) + state.z[0] * Real(15.0);
   const Real bQp12 = s * model.c1;
-  const Real b_0 = push1_0 - bQp12;
+  const Real b_0 = bQp12 - (state.y[0] * Real(900.0) + state.z[0] * Real(15.0));
   const Real y_0 = b_0 * Real(0.125);
-  zdot[0] = -y_0;
+  zdot[0] = y_0;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -304,14 +303,14 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real c = detail::cosine(expression);
   const Real derivative = c * model.c3;
   const Real v1P_z = state.z[0] * Real(8.0);
-  const Real T1 = derivative * v1P_z + (derivative * derivative * Real(48.0) + state.z[0] * v1P_z) *
+  const Real T1 = derivative * v1P_z + (derivative * (derivative * Real(48.0)) + state.z[0] * v1P_z) *
       Real(0.5);
   return T1;
 }
 
 template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>&, const State<Real>& state) noexcept {
-  const Real V = state.y[0] * state.y[0] * Real(450.0);
+  const Real V = Real(450.0) * (state.y[0] * state.y[0]);
   return V;
 }
 

@@ -23,7 +23,7 @@
 // Checked before this file was written
 // - validated at 8 states: in 77 digits everything below agrees to 1e-40 of its scale (what rounding can move
 //   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 1.3e-16 of the
-//   sum of absolute terms, other errors are 2.2e-16 of their scale; cond(M) up to 3.4e+01
+//   sum of absolute terms, other errors are 2.3e-16 of their scale; cond(M) up to 3.4e+01
 // - the symbolic equations (M, k_bar, q_bar, Z z, energies, initial y, initial z, outputs): the numeric
 //   reference
 // - initial_state: the description's start

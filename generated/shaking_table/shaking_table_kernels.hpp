@@ -145,16 +145,13 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real expression_2 = expression * model.expression;
   const Real expression_3 = state.z[3] * model.expression_2;
   const Real expression_4 = expression_2 + expression_3;
-  const Real push1_0 = state.y[0] * model.bending + state.z[0] * model.loss;
-  const Real push2_0 = model.bending * state.y[1] + model.loss * state.z[1];
   const Real bQp12 = expression_4 * model.m1;
   const Real bQp22 = expression_4 * model.storey;
-  const Real b_0 = push1_0 - bQp12;
-  const Real b_1 = push2_0 - bQp22;
-  const Real u1_0 = b_0 - b_1;
+  const Real b_1 = bQp22 - (model.bending * state.y[1] + model.loss * state.z[1]);
+  const Real u1_0 = b_1 - (bQp12 - (state.y[0] * model.bending + state.z[0] * model.loss));
   const Real y_0 = u1_0 * model.invD_0;
   const Real y_1 = b_1 * model.invD_1;
-  const Real zdot_1 = y_0 + y_1;
+  const Real zdot_1 = y_0 - y_1;
   zdot[0] = y_0;
   zdot[1] = -zdot_1;
   zdot[2] = state.z[3];
@@ -167,22 +164,17 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real expression = state.z[2] - input.u[0];
   const Real expression_2 = expression * model.expression;
   const Real expression_3 = state.z[3] * model.expression_2;
-  const Real expression_4 = expression_2 + expression_3;
-  const Real push1_0 = state.y[0] * model.bending + state.z[0] * model.loss;
-  const Real push2_0 = model.bending * state.y[1] + model.loss * state.z[1];
-  const Real expression_5 = state.z[2] * model.expression;
-  const Real expression_6 = expression_3 + expression_5;
-  const Real ala1L_z = expression_4 - zdot[0];
+  const Real expression_4 = state.z[2] * model.expression;
+  const Real ala1L_z = expression_2 + (expression_3 - zdot[0]);
   const Real ala2L_z = ala1L_z - zdot[1];
   const Real aL1f_z = ala1L_z * model.storey;
   const Real aL2f_z = ala2L_z * model.storey;
-  const Real af2c_z = aL1f_z + aL2f_z;
-  const Real tau_1_0 = push1_0 - af2c_z;
-  const Real tau_2_0 = push2_0 - aL2f_z;
+  const Real tau_1_0 = aL2f_z + (aL1f_z - (state.y[0] * model.bending + state.z[0] * model.loss));
+  const Real tau_2_0 = aL2f_z - (model.bending * state.y[1] + model.loss * state.z[1]);
   const Real balance_2 = state.z[3] - zdot[2];
-  const Real balance_3 = expression_6 + zdot[3];
-  tau[0] = tau_1_0;
-  tau[1] = tau_2_0;
+  const Real balance_3 = expression_4 + (expression_3 + zdot[3]);
+  tau[0] = -tau_1_0;
+  tau[1] = -tau_2_0;
   tau[2] = -balance_2;
   tau[3] = balance_3;
 }
@@ -192,8 +184,8 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real v1P_z = state.z[0] * model.m1;
   const Real v1s_z = state.z[3] + state.z[0];
   const Real v2P_z = state.z[1] * model.storey;
-  const Real T2 = (state.z[3] * state.z[3] * model.m0 + (state.z[0] * v1P_z + state.z[1] * v2P_z)) * Real(0.5)
-      + (state.z[3] * v1P_z + v1s_z * v2P_z);
+  const Real T2 = (state.z[1] * v2P_z + (model.m0 * (state.z[3] * state.z[3]) + state.z[0] * v1P_z)) *
+      Real(0.5) + (state.z[3] * v1P_z + v1s_z * v2P_z);
   return T2;
 }
 
@@ -210,22 +202,18 @@ void outputs(const Model<Real>& model, const State<Real>& state, const Input<Rea
   const Real expression_2 = expression * model.expression;
   const Real expression_3 = state.z[3] * model.expression_2;
   const Real expression_4 = expression_2 + expression_3;
-  const Real push1_0 = state.y[0] * model.bending + state.z[0] * model.loss;
-  const Real push2_0 = model.bending * state.y[1] + model.loss * state.z[1];
   const Real bQp12 = expression_4 * model.m1;
   const Real bQp22 = expression_4 * model.storey;
-  const Real b_0 = push1_0 - bQp12;
-  const Real b_1 = push2_0 - bQp22;
-  const Real u1_0 = b_0 - b_1;
+  const Real b_1 = bQp22 - (model.bending * state.y[1] + model.loss * state.z[1]);
+  const Real u1_0 = b_1 - (bQp12 - (state.y[0] * model.bending + state.z[0] * model.loss));
   const Real y_0 = u1_0 * model.invD_0;
   const Real y_1 = b_1 * model.invD_1;
-  const Real zdot_1 = y_0 + y_1;
+  const Real zdot_1 = y_0 - y_1;
   const Real drivedf0t_z = expression_4 * model.m0;
   const Real drivedf1t_z = model.m1 * y_0;
   const Real drivedf2t_z = model.storey * zdot_1;
-  const Real drivef2c_z = drivedf1t_z - drivedf2t_z;
-  const Real drivef1c_z = drivedf0t_z - drivef2c_z;
-  const Real outla2L_z = expression_4 + y_1;
+  const Real drivef1c_z = drivedf2t_z + (drivedf0t_z - drivedf1t_z);
+  const Real outla2L_z = expression_4 - y_1;
   result.drive = -drivef1c_z;
   result.roof.a[0] = -outla2L_z;
   result.roof.a[1] = Real(0.0);

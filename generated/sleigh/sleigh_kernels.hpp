@@ -212,9 +212,9 @@ template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[3]) noexcept {
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
-  const Real zw_2 = state.z[2] * state.z[2];
-  const Real kdf2_x = c2 * zw_2 * model.mr_x;
-  const Real kdf2_y = model.mr_x * (s2 * zw_2);
+  const Real t6 = model.mr_x * (state.z[2] * state.z[2]);
+  const Real kdf2_x = c2 * t6;
+  const Real kdf2_y = s2 * t6;
   k[0] = kdf2_x;
   k[1] = kdf2_y;
   k[2] = Real(0.0);
@@ -237,21 +237,21 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t10 = h2b_x * model.c2;
   const Real t14 = h2b_y * t10;
   const Real t15 = h2b_y * model.c2;
-  const Real t19 = Real(1.0) / (h2b_x * t10 - Real(5.0));
-  const Real t20 = t14 * t19;
-  const Real t23 = Real(1.0) / (Real(5.0) - h2b_y * t15 + t14 * t20);
-  const Real t25 = s2 - c2 * t20;
-  const Real t33 = Real(1.0) / (t25 * (t23 * t25) - c2 * (c2 * t19) + Real(4.25e-11));
+  const Real t18 = Real(1.0) / (h2b_x * t10 - Real(5.0));
+  const Real t19 = t14 * t18;
+  const Real t23 = Real(1.0) / (t14 * t19 + (Real(5.0) - h2b_y * t15));
+  const Real t25 = s2 - c2 * t19;
+  const Real t33 = Real(1.0) / (t23 * (t25 * t25) - (t18 * (c2 * c2) - Real(4.25e-11)));
   const Real zw_2 = state.z[2] * state.z[2];
   const Real rdf2_x = h2b_x * zw_2;
   const Real rdf2_y = h2b_y * zw_2;
-  const Real t43 = t33 * (state.z[2] * (s2 * state.z[1] + c2 * state.z[0]));
-  const Real t46 = t43 + Real(4.25e-11) * (t33 * t43);
-  const Real t51 = t23 * (rdf2_x + t20 * rdf2_y - t25 * t46);
-  const Real t54 = t19 * (rdf2_y + c2 * t46) - t20 * t51;
-  zdot[0] = t51;
+  const Real t42 = t33 * (state.z[2] * (s2 * state.z[1] + c2 * state.z[0]));
+  const Real t45 = t42 + t42 * (Real(4.25e-11) * t33);
+  const Real t51 = t23 * (t25 * t45 - (rdf2_x + t19 * rdf2_y));
+  const Real t54 = t18 * (rdf2_y + c2 * t45) + t19 * t51;
+  zdot[0] = -t51;
   zdot[1] = -t54;
-  zdot[2] = t15 * t51 + t10 * t54;
+  zdot[2] = -(t15 * t51 - t10 * t54);
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -263,25 +263,22 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real h2b_y = s2 * model.mr_x;
   const Real adf0t_z = zdot[0] * Real(5.0);
   const Real adf1t_z = zdot[1] * Real(5.0);
-  const Real aQp2 = zdot[0] * h2b_y - zdot[1] * h2b_x;
   const Real zw_2 = state.z[2] * state.z[2];
-  const Real adf2_x = zdot[2] * h2b_y + h2b_x * zw_2;
-  const Real adf2_y = zdot[2] * h2b_x - h2b_y * zw_2;
   const Real adn2_z = zdot[2] * model.S2b_zz;
-  const Real af1_z = adf1t_z + adf2_y;
-  const Real af0_z = adf0t_z - adf2_x;
-  const Real aQ2_0 = aQp2 - adn2_z;
-  tau[0] = af0_z;
-  tau[1] = af1_z;
-  tau[2] = -aQ2_0;
+  const Real af1_z = h2b_y * zw_2 - (adf1t_z + zdot[2] * h2b_x);
+  const Real af0_z = h2b_x * zw_2 - (adf0t_z - zdot[2] * h2b_y);
+  const Real aQ2_0 = zdot[1] * h2b_x - (zdot[0] * h2b_y - adn2_z);
+  tau[0] = -af0_z;
+  tau[1] = -af1_z;
+  tau[2] = aQ2_0;
 }
 
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept {
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
-  const Real T2 = (state.z[2] * state.z[2] * model.S2b_zz_2 + (state.z[0] * state.z[0] + state.z[1] *
-      state.z[1]) * Real(5.0)) * Real(0.5) - (state.z[0] * (s2 * state.z[2]) - state.z[1] * (c2 * state.z[2]))
+  const Real T2 = (model.S2b_zz_2 * (state.z[2] * state.z[2]) + (state.z[0] * state.z[0] + state.z[1] *
+      state.z[1]) * Real(5.0)) * Real(0.5) - (s2 * (state.z[0] * state.z[2]) - c2 * (state.z[1] * state.z[2]))
       * model.mr_x;
   return T2;
 }
@@ -296,8 +293,8 @@ void outputs(const Model<Real>& model, const State<Real>& state, const Input<Rea
     noexcept {
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
-  const Real T2 = (state.z[2] * state.z[2] * model.S2b_zz_2 + (state.z[0] * state.z[0] + state.z[1] *
-      state.z[1]) * Real(5.0)) * Real(0.5) - (state.z[0] * (s2 * state.z[2]) - state.z[1] * (c2 * state.z[2]))
+  const Real T2 = (model.S2b_zz_2 * (state.z[2] * state.z[2]) + (state.z[0] * state.z[0] + state.z[1] *
+      state.z[1]) * Real(5.0)) * Real(0.5) - (s2 * (state.z[0] * state.z[2]) - c2 * (state.z[1] * state.z[2]))
       * model.mr_x;
   result.kinetic = T2;
 }
@@ -312,21 +309,21 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real t7 = h2b_x * model.c2;
   const Real t11 = h2b_y * t7;
   const Real t12 = h2b_y * model.c2;
-  const Real t16 = Real(1.0) / (h2b_x * t7 - Real(5.0));
-  const Real t17 = t11 * t16;
-  const Real t21 = s2 - c2 * t17;
-  const Real t22 = t21 / (Real(5.0) - h2b_y * t12 + t11 * t17);
-  const Real t26 = t21 * t22 - c2 * (c2 * t16);
+  const Real t15 = Real(1.0) / (h2b_x * t7 - Real(5.0));
+  const Real t16 = t11 * t15;
+  const Real t21 = s2 - c2 * t16;
+  const Real t22 = t21 / (t11 * t16 + (Real(5.0) - h2b_y * t12));
+  const Real t26 = t21 * t22 - t15 * (c2 * c2);
   const Real t28 = t26 + Real(4.25e-11);
   const Real t37 = (s2 * state.z[0] - c2 * state.z[1]) / t28;
-  const Real t39 = t22 * t37;
-  const Real t40 = t26 * (c2 * t37);
+  const Real t38 = t22 * t37;
+  const Real t40 = t37 * (c2 * t26);
   closed.y[0] = state.y[0];
   closed.y[1] = state.y[1];
   closed.y[2] = state.y[2];
-  closed.z[0] = state.z[0] - t39;
+  closed.z[0] = state.z[0] - t38;
   closed.z[1] = state.z[1] + t40;
-  closed.z[2] = state.z[2] - (t12 * t39 + t7 * t40);
+  closed.z[2] = -(t7 * t40 - (state.z[2] - t12 * t38));
   closed.regularity = t28 * Real(2.3529411764705883);
   closed.opening = Real(0.0);
   state = closed;
@@ -351,13 +348,13 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real h2b_y = s2 * model.mr_x;
   const Real t10 = h2b_x * model.c2;
   const Real t14 = h2b_y * t10;
-  const Real t19 = Real(1.0) / (h2b_x * t10 - Real(5.0));
-  const Real t20 = t14 * t19;
-  const Real t24 = s2 - c2 * t20;
-  const Real t32 = Real(1.0) / (t24 * (t24 / (Real(5.0) - model.c2 * (h2b_y * h2b_y) + t14 * t20)) - c2 * (c2
-      * t19) + Real(4.25e-11));
+  const Real t18 = Real(1.0) / (h2b_x * t10 - Real(5.0));
+  const Real t19 = t14 * t18;
+  const Real t24 = s2 - c2 * t19;
+  const Real t32 = Real(1.0) / (t24 * (t24 / (t14 * t19 + (Real(5.0) - h2b_y * (h2b_y * model.c2)))) - (t18 *
+      (c2 * c2) - Real(4.25e-11)));
   const Real t37 = t32 * (state.z[2] * (s2 * state.z[1] + c2 * state.z[0]));
-  lambda[0] = -(t37 + Real(4.25e-11) * (t32 * t37));
+  lambda[0] = -(t37 + t37 * (Real(4.25e-11) * t32));
 }
 
 template <class Real> JOURDAIN_FUNCTION

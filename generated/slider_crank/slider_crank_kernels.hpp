@@ -333,11 +333,10 @@ void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[3]
   const Real piston_pinbx1_x = r1_x - piston_pinbx_x;
   const Real r1_y = s0 * Real(0.045);
   const Real piston_pinbx_y = s1 * Real(0.145);
-  const Real piston_pinbx1_y = r1_y + piston_pinbx_y;
-  const Real t20 = piston_pinbx1_x / piston_pinbx_x;
+  const Real t19 = piston_pinbx1_x / piston_pinbx_x;
   ydot[0] = state.z[0];
-  ydot[1] = t20 * state.z[0];
-  ydot[2] = -((piston_pinbx1_y + piston_pinbx_y * t20) * state.z[0]);
+  ydot[1] = t19 * state.z[0];
+  ydot[2] = -((piston_pinbx_y * t19 + (r1_y + piston_pinbx_y)) * state.z[0]);
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -355,8 +354,8 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1
   const Real t22 = piston_pinbx_y * t19 + (r1_y + piston_pinbx_y);
   const Real D1 = t5 * Real(0.00111375);
   const Real v1L_z = t19 * Real(0.00311375);
-  const Real T2 = (t19 * v1L_z + (D1 + (D1 + t22 * t22 * Real(0.48))) + model.c0) * Real(0.5) + (v1L_z + t19 *
-      D1);
+  const Real T2 = (t22 * (t22 * Real(0.48)) + (t19 * v1L_z + (D1 + (D1 + model.c0)))) * Real(0.5) + (v1L_z +
+      t19 * D1);
   M[0][0] = T2 * Real(2.0);
 }
 
@@ -371,25 +370,21 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[1]) noexcept 
   const Real piston_pinbx1_x = r1_x - piston_pinbx_x;
   const Real r1_y = s0 * Real(0.045);
   const Real piston_pinbx_y = s1 * Real(0.145);
-  const Real piston_pinbx1_y = r1_y + piston_pinbx_y;
-  const Real t21 = Real(1.0) / piston_pinbx_x;
-  const Real t22 = piston_pinbx1_x * t21;
-  const Real t26 = t22 * state.z[0];
-  const Real t27 = Real(0.045) * state.z[0];
+  const Real t20 = Real(1.0) / piston_pinbx_x;
+  const Real t21 = piston_pinbx1_x * t20;
+  const Real t26 = t21 * state.z[0];
   const Real w1_z = state.z[0] + t26;
-  const Real t31 = t27 * (s0 * state.z[0]);
-  const Real t32 = t27 * (c0 * state.z[0]);
-  const Real t37 = t21 * (t31 + w1_z * (piston_pinbx_y * w1_z));
+  const Real t29 = state.z[0] * (Real(0.045) * state.z[0]);
+  const Real t30 = s0 * t29;
+  const Real t31 = c0 * t29;
+  const Real t36 = t20 * (t30 + w1_z * (piston_pinbx_y * w1_z));
   const Real h1b_x = c1 * Real(0.02475);
   const Real h1b_y = s1 * Real(0.02475);
-  const Real kQp1 = t31 * h1b_x + t32 * h1b_y;
   const Real zw_1 = t26 * (state.z[0] + w1_z);
-  const Real kdf1_x = h1b_x * zw_1;
-  const Real kdf1_y = h1b_y * zw_1;
-  const Real kn1c_z = r1_x * kdf1_y + r1_y * kdf1_x;
   const Real E1 = t5 * Real(0.00111375) + Real(0.00311375);
-  k[0] = kn1c_z + t37 * E1 - t22 * (kQp1 - t37 * Real(0.00311375)) + (piston_pinbx1_y + piston_pinbx_y * t22)
-      * (t22 * t32 + piston_pinbx_y * t37) * Real(0.48);
+  k[0] = (t21 * t31 + piston_pinbx_y * t36) * ((piston_pinbx_y * t21 + (r1_y + piston_pinbx_y)) * Real(0.48))
+      + (t21 * (t36 * Real(0.00311375) - (t30 * h1b_x + t31 * h1b_y)) + (t36 * E1 + (zw_1 * (r1_x * h1b_y) +
+      zw_1 * (r1_y * h1b_x))));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -406,10 +401,9 @@ void q_bar(const Model<Real>&, const State<Real>& state, const Input<Real>& inpu
   const Real t19 = piston_pinbx1_x / piston_pinbx_x;
   const Real h1b_y = s1 * Real(0.02475);
   const Real h0b_y = s0 * Real(0.02475);
-  const Real h0_y = h1b_y + h0b_y;
   const Real q_2 = input.u[0] - Real(4.7088);
-  q[0] = -((h0_y + t19 * h1b_y) * Real(9.81) + (input.u[1] - (piston_pinbx_y * t19 + (r1_y + piston_pinbx_y))
-      * q_2));
+  q[0] = -((t19 * h1b_y + (h1b_y + h0b_y)) * Real(9.81) + (input.u[1] - (piston_pinbx_y * t19 + (r1_y +
+      piston_pinbx_y)) * q_2));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -426,32 +420,32 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real piston_pinbx_y = s1 * Real(0.145);
   const Real t20 = Real(1.0) / piston_pinbx_x;
   const Real t21 = piston_pinbx1_x * t20;
-  const Real t24 = piston_pinbx_y + (r1_y + piston_pinbx_y * t21);
+  const Real t24 = piston_pinbx_y * t21 + (r1_y + piston_pinbx_y);
   const Real t26 = t21 * state.z[0];
-  const Real t27 = Real(0.045) * state.z[0];
   const Real w1_z = state.z[0] + t26;
-  const Real t31 = t27 * (s0 * state.z[0]);
-  const Real t32 = t27 * (c0 * state.z[0]);
-  const Real t36 = t20 * (t31 + w1_z * (piston_pinbx_y * w1_z));
+  const Real t29 = state.z[0] * (Real(0.045) * state.z[0]);
+  const Real t30 = s0 * t29;
+  const Real t31 = c0 * t29;
+  const Real t35 = t20 * (t30 + w1_z * (piston_pinbx_y * w1_z));
   const Real h1b_x = c1 * Real(0.02475);
   const Real h1b_y = s1 * Real(0.02475);
   const Real D1 = t5 * Real(0.00111375);
   const Real v1L_z = t21 * Real(0.00311375);
-  const Real T2 = t21 * D1 + (v1L_z + (t24 * t24 * Real(0.48) + (D1 + (D1 + t21 * v1L_z)) + model.c0) *
-      Real(0.5));
+  const Real T2 = (t24 * (t24 * Real(0.48)) + (t21 * v1L_z + (D1 + (D1 + model.c0)))) * Real(0.5) + (v1L_z +
+      t21 * D1);
   const Real h0b_y = s0 * Real(0.02475);
   const Real h0_y = h1b_y + h0b_y;
   const Real rQp0 = h0_y * Real(9.81);
-  const Real ra1o_x = t32 - Real(9.81);
+  const Real ra1o_x = t31 - Real(9.81);
   const Real zw_1 = t26 * (state.z[0] + w1_z);
-  const Real rdf1_x = t36 * h1b_y + h1b_x * zw_1;
-  const Real rdf1_y = t36 * h1b_x - h1b_y * zw_1;
-  const Real rdn1_z = t36 * Real(0.00311375);
-  const Real rdf2t_z = (piston_pinbx_y * t36 + t21 * t32) * Real(0.48);
-  const Real rQ1_0 = h1b_y * ra1o_x + (t31 * h1b_x - rdn1_z);
-  const Real tau_2_0 = rdf2t_z - input.u[0] + Real(4.7088);
-  zdot[0] = (rdn1_z + (rQp0 - (r1_x * rdf1_y - (r1_y * rdf1_x + (input.u[1] - (t21 * rQ1_0 - t24 *
-      tau_2_0)))))) / (T2 * Real(2.0));
+  const Real rdf1_x = t35 * h1b_y + h1b_x * zw_1;
+  const Real rdf1_y = t35 * h1b_x - h1b_y * zw_1;
+  const Real rdn1_z = t35 * Real(0.00311375);
+  const Real rdf2t_z = (piston_pinbx_y * t35 + t21 * t31) * Real(0.48);
+  const Real rQ1_0 = rdn1_z - (t30 * h1b_x + h1b_y * ra1o_x);
+  const Real tau_2_0 = rdf2t_z - (input.u[0] - Real(4.7088));
+  zdot[0] = (t24 * tau_2_0 - (r1_x * rdf1_y - (rdn1_z + (rQp0 + input.u[1])) - (r1_y * rdf1_x + t21 * rQ1_0)))
+      / (T2 * Real(2.0));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -466,17 +460,16 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real piston_pinbx1_x = r1_x - piston_pinbx_x;
   const Real r1_y = s0 * Real(0.045);
   const Real piston_pinbx_y = s1 * Real(0.145);
-  const Real piston_pinbx1_y = r1_y + piston_pinbx_y;
-  const Real t21 = Real(1.0) / piston_pinbx_x;
-  const Real t22 = piston_pinbx1_x * t21;
-  const Real t24 = piston_pinbx1_y + piston_pinbx_y * t22;
-  const Real t26 = t22 * state.z[0];
-  const Real t27 = Real(0.045) * state.z[0];
+  const Real t20 = Real(1.0) / piston_pinbx_x;
+  const Real t21 = piston_pinbx1_x * t20;
+  const Real t24 = piston_pinbx_y * t21 + (r1_y + piston_pinbx_y);
+  const Real t26 = t21 * state.z[0];
   const Real w1_z = state.z[0] + t26;
-  const Real t31 = t27 * (s0 * state.z[0]);
-  const Real t32 = t27 * (c0 * state.z[0]);
-  const Real t37 = t21 * (t31 + w1_z * (piston_pinbx_y * w1_z));
-  const Real t42 = t37 - t22 * zdot[0];
+  const Real t29 = state.z[0] * (Real(0.045) * state.z[0]);
+  const Real t30 = s0 * t29;
+  const Real t31 = c0 * t29;
+  const Real t36 = t20 * (t30 + w1_z * (piston_pinbx_y * w1_z));
+  const Real t40 = t36 - t21 * zdot[0];
   const Real h1b_x = c1 * Real(0.02475);
   const Real h1b_y = s1 * Real(0.02475);
   const Real h0b_y = s0 * Real(0.02475);
@@ -484,19 +477,16 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real J0 = t5 * Real(0.0022275) + model.c1;
   const Real aQp0 = h0_y * Real(9.81);
   const Real adn0_z = zdot[0] * J0;
-  const Real aa1o_x = t32 - (Real(9.81) - r1_y * zdot[0]);
-  const Real aa1o_y = t31 - r1_x * zdot[0];
-  const Real aQp1 = zdot[0] * Real(0.00311375) + h1b_x * aa1o_y + h1b_y * aa1o_x;
+  const Real aa1o_x = r1_y * zdot[0] + (t31 - Real(9.81));
+  const Real aa1o_y = t30 - r1_x * zdot[0];
   const Real zw_1 = t26 * (state.z[0] + w1_z);
-  const Real adf1_x = t42 * h1b_y + h1b_x * zw_1;
-  const Real adf1_y = t42 * h1b_x - h1b_y * zw_1;
-  const Real adn1_z = t42 * Real(0.00311375);
-  const Real adf2t_z = (t22 * t32 + piston_pinbx_y * t37 - t24 * zdot[0]) * Real(0.48);
-  const Real an1c_z = adn1_z - (adn0_z + (r1_x * adf1_y - r1_y * adf1_x));
-  const Real aQ0_0 = aQp0 + an1c_z;
-  const Real aQ1_0 = aQp1 - adn1_z;
+  const Real adf1_x = t40 * h1b_y + h1b_x * zw_1;
+  const Real adf1_y = t40 * h1b_x - h1b_y * zw_1;
+  const Real adn1_z = t40 * Real(0.00311375);
+  const Real adf2t_z = (piston_pinbx_y * t36 + (t21 * t31 - t24 * zdot[0])) * Real(0.48);
+  const Real aQ1_0 = adn1_z - (h1b_y * aa1o_x + (zdot[0] * Real(0.00311375) + h1b_x * aa1o_y));
   const Real aQ2_0 = adf2t_z + Real(4.7088);
-  tau[0] = -(aQ0_0 - t22 * aQ1_0 + t24 * aQ2_0);
+  tau[0] = -(r1_y * adf1_x + t21 * aQ1_0 + (t24 * aQ2_0 - (r1_x * adf1_y - (adn1_z + (aQp0 - adn0_z)))));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -512,14 +502,12 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real piston_pinbx_y = s1 * Real(0.145);
   const Real t19 = piston_pinbx1_x / piston_pinbx_x;
   const Real t24 = t19 * state.z[0];
-  const Real t25 = (piston_pinbx_y + (r1_y + piston_pinbx_y * t19)) * state.z[0];
+  const Real t25 = (piston_pinbx_y * t19 + (r1_y + piston_pinbx_y)) * state.z[0];
   const Real J0 = t5 * Real(0.0022275) + model.c0;
-  const Real v0L_z = state.z[0] * J0;
-  const Real v1o_x = r1_y * state.z[0];
-  const Real v1o_y = r1_x * state.z[0];
   const Real v1L_z = t24 * Real(0.00311375);
-  const Real T2 = (v1o_x * (s1 * t24) - v1o_y * (c1 * t24)) * Real(0.02475) + (state.z[0] * v1L_z + (t24 *
-      v1L_z + (state.z[0] * v0L_z + t25 * t25 * Real(0.48))) * Real(0.5));
+  const Real T2 = (t25 * (t25 * Real(0.48)) + (J0 * (state.z[0] * state.z[0]) + t24 * v1L_z)) * Real(0.5) +
+      (state.z[0] * v1L_z + (t24 * (s1 * (r1_y * state.z[0])) - t24 * (c1 * (r1_x * state.z[0]))) *
+      Real(0.02475));
   return T2;
 }
 
@@ -527,8 +515,7 @@ template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>&, const State<Real>& state) noexcept {
   Real t3, c0, t4, t5;
   detail::sine_cosine2(state.y[0], t3, c0, state.y[1], t4, t5);
-  const Real c1 = t3 * t4 - c0 * t5;
-  const Real hg2_x = state.y[2] * Real(0.48) + (c0 - c1) * Real(0.02475);
+  const Real hg2_x = state.y[2] * Real(0.48) + (c0 * t5 + (c0 - t3 * t4)) * Real(0.02475);
   const Real V = hg2_x * Real(9.81);
   return V;
 }
@@ -545,8 +532,7 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
   const Real piston_pinbx1_x = r1_x - piston_pinbx_x;
   const Real r1_y = s0 * Real(0.045);
   const Real piston_pinbx_y = s1 * Real(0.145);
-  const Real piston_pinbx1_y = r1_y + piston_pinbx_y;
-  result.piston_speed = -((piston_pinbx1_y + piston_pinbx_y * (piston_pinbx1_x / piston_pinbx_x)) *
+  result.piston_speed = -((piston_pinbx_y * (piston_pinbx1_x / piston_pinbx_x) + (r1_y + piston_pinbx_y)) *
       state.z[0]);
 }
 
@@ -583,13 +569,11 @@ void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)
   const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.045);
   const Real piston_pinbx_x = c1 * Real(0.145);
-  const Real piston_pinbx1_x = r1_x - piston_pinbx_x;
-  const Real piston_pind_x = piston_pinbx1_x - state.y[2];
+  const Real piston_pind_x = piston_pinbx_x - (r1_x - state.y[2]);
   const Real r1_y = s0 * Real(0.045);
   const Real piston_pinbx_y = s1 * Real(0.145);
-  const Real piston_pinbx1_y = r1_y + piston_pinbx_y;
-  const Real piston_pind_y = piston_pinbx1_y - Real(0.006);
-  g[0] = piston_pind_x;
+  const Real piston_pind_y = piston_pinbx_y + (r1_y - Real(0.006));
+  g[0] = -piston_pind_x;
   g[1] = piston_pind_y;
   g_rate[0] = Real(0.0);
   g_rate[1] = Real(0.0);
@@ -609,40 +593,41 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real piston_pinbx_y = s1 * Real(0.145);
   const Real t20 = Real(1.0) / piston_pinbx_x;
   const Real t21 = piston_pinbx1_x * t20;
-  const Real t24 = piston_pinbx_y + (r1_y + piston_pinbx_y * t21);
+  const Real t24 = piston_pinbx_y * t21 + (r1_y + piston_pinbx_y);
   const Real t26 = t21 * state.z[0];
-  const Real t27 = Real(0.045) * state.z[0];
   const Real w1_z = state.z[0] + t26;
-  const Real ra1o_y = t27 * (s0 * state.z[0]);
-  const Real t32 = t27 * (c0 * state.z[0]);
-  const Real t36 = t20 * (ra1o_y + w1_z * (piston_pinbx_y * w1_z));
-  const Real t39 = piston_pinbx_y * t36 + t21 * t32;
+  const Real t29 = state.z[0] * (Real(0.045) * state.z[0]);
+  const Real ra1o_y = s0 * t29;
+  const Real t31 = c0 * t29;
+  const Real t35 = t20 * (ra1o_y + w1_z * (piston_pinbx_y * w1_z));
+  const Real t38 = piston_pinbx_y * t35 + t21 * t31;
   const Real h1b_x = c1 * Real(0.02475);
   const Real h1b_y = s1 * Real(0.02475);
   const Real D1 = t5 * Real(0.00111375);
   const Real v1L_z = t21 * Real(0.00311375);
-  const Real T2 = t21 * D1 + (v1L_z + (t24 * t24 * Real(0.48) + (D1 + (D1 + t21 * v1L_z)) + model.c0) *
-      Real(0.5));
+  const Real T2 = (t24 * (t24 * Real(0.48)) + (t21 * v1L_z + (D1 + (D1 + model.c0)))) * Real(0.5) + (v1L_z +
+      t21 * D1);
   const Real h0b_y = s0 * Real(0.02475);
   const Real h0_y = h1b_y + h0b_y;
   const Real rQp0 = h0_y * Real(9.81);
-  const Real ra1o_x = t32 - Real(9.81);
+  const Real ra1o_x = t31 - Real(9.81);
   const Real zw_1 = t26 * (state.z[0] + w1_z);
-  const Real rdf1_x = t36 * h1b_y + h1b_x * zw_1;
-  const Real rdf1_y = t36 * h1b_x - h1b_y * zw_1;
-  const Real rdn1_z = t36 * Real(0.00311375);
-  const Real rdf2t_z = t39 * Real(0.48);
-  const Real rQ1_0 = h1b_y * ra1o_x + (ra1o_y * h1b_x - rdn1_z);
-  const Real tau_2_0 = rdf2t_z - input.u[0] + Real(4.7088);
-  const Real t97 = (rdn1_z + (rQp0 - (r1_x * rdf1_y - (r1_y * rdf1_x + (input.u[1] - (t21 * rQ1_0 - t24 *
-      tau_2_0)))))) / (T2 * Real(2.0));
-  const Real ra1o_x_2 = ra1o_x + r1_y * t97;
-  const Real ra1o_y_2 = ra1o_y - r1_x * t97;
-  const Real rdf2t_z_2 = Real(0.48) * (t39 - t24 * t97);
-  const Real tau_2_0_2 = Real(4.7088) - (input.u[0] - rdf2t_z_2);
-  lambda[0] = tau_2_0_2;
-  lambda[1] = t20 * (h1b_y * ra1o_x_2 + (h1b_x * ra1o_y_2 - (piston_pinbx_y * tau_2_0_2 - Real(0.00311375) *
-      (t21 * t97 - (t36 - t97)))));
+  const Real rdf1_x = t35 * h1b_y + h1b_x * zw_1;
+  const Real rdf1_y = t35 * h1b_x - h1b_y * zw_1;
+  const Real rdn1_z = t35 * Real(0.00311375);
+  const Real rdf2t_z = t38 * Real(0.48);
+  const Real rQ1_0 = rdn1_z - (ra1o_y * h1b_x + h1b_y * ra1o_x);
+  const Real t86 = input.u[0] - Real(4.7088);
+  const Real tau_2_0 = rdf2t_z - t86;
+  const Real t96 = (t24 * tau_2_0 - (r1_x * rdf1_y - (rdn1_z + (rQp0 + input.u[1])) - (r1_y * rdf1_x + t21 *
+      rQ1_0))) / (T2 * Real(2.0));
+  const Real ra1o_x_2 = ra1o_x + r1_y * t96;
+  const Real ra1o_y_2 = ra1o_y - r1_x * t96;
+  const Real rdf2t_z_2 = Real(0.48) * (t38 - t24 * t96);
+  const Real tau_2_0_2 = t86 - rdf2t_z_2;
+  lambda[0] = -tau_2_0_2;
+  lambda[1] = t20 * (piston_pinbx_y * tau_2_0_2 + (Real(0.00311375) * (t21 * t96 - (t35 - t96)) + (h1b_x *
+      ra1o_y_2 + h1b_y * ra1o_x_2)));
 }
 
 // `input` may be a function that gives the Input at the state of a stage.

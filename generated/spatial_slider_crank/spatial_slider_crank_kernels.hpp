@@ -313,13 +313,12 @@ void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[4]
   detail::sine_cosine(state.y[0], s0, c0);
   const Real ballax_x = s0 * Real(0.08);
   const Real ballbx_y = Real(0.3) * s3;
-  const Real ballbx3_x = ballbx_x * s2;
-  const Real t19 = Real(0.08) * (c0 / ballbx_x);
-  const Real t22 = (ballax_x - ballbx_y * s2 * t19) / ballbx3_y;
+  const Real t16 = Real(0.08) * (c0 / ballbx_x);
+  const Real t20 = (ballax_x - t16 * (ballbx_y * s2)) / ballbx3_y;
   ydot[0] = state.z[0];
-  ydot[1] = (ballbx3_x * t22 - c2 * ballbx_y * t19) * state.z[0];
-  ydot[2] = -(t22 * state.z[0]);
-  ydot[3] = t19 * state.z[0];
+  ydot[1] = (t20 * (ballbx_x * s2) - t16 * (c2 * ballbx_y)) * state.z[0];
+  ydot[2] = -(t20 * state.z[0]);
+  ydot[3] = t16 * state.z[0];
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -332,16 +331,14 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[1][1]) 
   detail::sine_cosine(state.y[0], s0, c0);
   const Real ballax_x = s0 * Real(0.08);
   const Real ballbx_y = Real(0.3) * s3;
-  const Real ballbx3_x = ballbx_x * s2;
-  const Real t19 = Real(0.08) * (c0 / ballbx_x);
-  const Real t22 = (ballax_x - ballbx_y * s2 * t19) / ballbx3_y;
-  const Real t25 = ballbx3_x * t22 - c2 * ballbx_y * t19;
-  const Real S2b_zz = s3 * s3 * Real(0.014849999999999999) - Real(0.01525);
+  const Real t16 = Real(0.08) * (c0 / ballbx_x);
+  const Real t20 = (ballax_x - t16 * (ballbx_y * s2)) / ballbx3_y;
+  const Real t25 = t20 * (ballbx_x * s2) - t16 * (c2 * ballbx_y);
+  const Real S2b_zz = s3 * (s3 * Real(0.014849999999999999)) - Real(0.01525);
   const Real t31 = t25 * t25;
-  const Real v2L_z = t22 * S2b_zz;
-  const Real T3 = t31 * Real(0.25) + ((t22 * v2L_z - (t31 * Real(2.5) + Real(0.01525) * (t19 * t19))) *
-      Real(0.5) - Real(5e-05));
-  M[0][0] = -(T3 * Real(2.0));
+  const Real T3 = (t31 * Real(2.5) - (t20 * (t20 * S2b_zz) - t16 * (t16 * Real(0.01525)))) * Real(0.5) - (t31
+      * Real(0.25) - Real(5e-05));
+  M[0][0] = T3 * Real(2.0);
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -359,40 +356,33 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[1]) noexcept 
   const Real t17 = ballbx_y * s2;
   const Real t19 = Real(1.0) / ballbx_x;
   const Real t20 = Real(1.0) / ballbx3_y;
-  const Real t22 = Real(0.08) * (c0 * t19);
+  const Real t22 = t19 * (Real(0.08) * c0);
   const Real t25 = t20 * (ballax_x - t17 * t22);
   const Real t30 = t25 * state.z[0];
   const Real t31 = t22 * state.z[0];
   const Real ballbm3t_x = ballbx_y * t31;
-  const Real ballbm3vp_y = c2 * ballbm3t_x;
   const Real ballbm2t_y = ballbx3_x * t30;
   const Real ballbm3t_y = ballbx_x * t31;
   const Real ballbm3a_x = t31 * ballbm3t_y;
-  const Real ballbm3vp_x = s2 * ballbm3t_x;
   const Real ballbm3ap_y = c2 * ballbm3a_x;
   const Real ballbm2t_x = ballbx3_y * t30;
-  const Real ballbm2b_x = ballbm2t_x + ballbm3vp_x * Real(2.0);
-  const Real ballbm2a_y = ballbm3ap_y + t30 * ballbm2b_x;
-  const Real ballam0t_y = ballax_x * state.z[0];
-  const Real ballam0a_x = state.z[0] * ballam0t_y;
+  const Real ballbm2b_x = ballbm2t_x + ballbm3t_x * (s2 * Real(2.0));
+  const Real ballam0a_x = ballax_x * (state.z[0] * state.z[0]);
   const Real ballbm3a_y = t31 * ballbm3t_x;
   const Real ballda_y = ballam0a_x - ballbm3a_y;
   const Real ballam0a_y = state.z[0] * ballbm3t_y;
   const Real ballbm3ap_x = s2 * ballbm3a_x;
-  const Real ballbm2b_y = ballbm2t_y - ballbm3vp_y * Real(2.0);
-  const Real ballbm2a_x = ballbm3ap_x + t30 * ballbm2b_y;
-  const Real ballda_z = ballam0a_y - ballbm2a_x;
-  const Real t56 = t19 * ballda_y;
-  const Real t59 = t20 * (ballda_z + t17 * t56);
-  const Real t63 = ballbm2a_y - ballbx3_x * t59 - t16 * t56;
+  const Real ballbm2b_y = ballbm2t_y - ballbm3t_x * (c2 * Real(2.0));
+  const Real t53 = t19 * ballda_y;
+  const Real t58 = t20 * (t30 * ballbm2b_y - (t17 * t53 + (ballam0a_y - ballbm3ap_x)));
+  const Real t63 = ballbx3_x * t58 + (t30 * ballbm2b_x + (ballbm3ap_y - t16 * t53));
   const Real S3b_t = s3 * Real(0.014849999999999999);
-  const Real S3b_xy = c3 * S3b_t;
-  const Real kKx3 = t30 * S3b_xy;
+  const Real kKx3 = t30 * (c3 * S3b_t);
   const Real kQp3 = t30 * kKx3;
-  const Real kdn3_y = Real(2.0) * (t31 * kKx3);
+  const Real kdn3_y = kKx3 * (t31 * Real(2.0));
   const Real S2b_zz = s3 * S3b_t - Real(0.01525);
-  k[0] = (ballbx3_x * t25 - t16 * t22) * t63 * Real(2.25) + t25 * (kdn3_y - (ballbx3_x * t63 * Real(0.25) -
-      t59 * S2b_zz)) - t22 * (kQp3 - (Real(0.25) * (t16 * t63) + t56 * Real(0.01525)));
+  k[0] = t22 * (t63 * (t16 * Real(0.25)) - (kQp3 - t53 * Real(0.01525))) + (t63 * ((ballbx3_x * t25 - t16 *
+      t22) * Real(2.25)) - t25 * (t63 * (ballbx3_x * Real(0.25)) - (kdn3_y - t58 * S2b_zz)));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -417,49 +407,41 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real t17 = ballbx_y * s2;
   const Real t19 = Real(1.0) / ballbx_x;
   const Real t20 = Real(1.0) / ballbx3_y;
-  const Real t22 = Real(0.08) * (c0 * t19);
+  const Real t22 = t19 * (Real(0.08) * c0);
   const Real t25 = t20 * (ballax_x - t17 * t22);
   const Real t28 = ballbx3_x * t25 - t16 * t22;
   const Real t30 = t25 * state.z[0];
   const Real t31 = t22 * state.z[0];
   const Real ballbm3t_x = ballbx_y * t31;
-  const Real ballbm3vp_y = c2 * ballbm3t_x;
   const Real ballbm2t_y = ballbx3_x * t30;
   const Real ballbm3t_y = ballbx_x * t31;
   const Real ballbm3a_x = t31 * ballbm3t_y;
-  const Real ballbm3vp_x = s2 * ballbm3t_x;
   const Real ballbm3ap_y = c2 * ballbm3a_x;
   const Real ballbm2t_x = ballbx3_y * t30;
-  const Real ballbm2b_x = ballbm2t_x + ballbm3vp_x * Real(2.0);
-  const Real ballam0t_y = ballax_x * state.z[0];
-  const Real ballam0a_x = state.z[0] * ballam0t_y;
+  const Real ballbm2b_x = ballbm2t_x + ballbm3t_x * (s2 * Real(2.0));
+  const Real ballam0a_x = ballax_x * (state.z[0] * state.z[0]);
   const Real ballbm3a_y = t31 * ballbm3t_x;
   const Real ballda_y = ballam0a_x - ballbm3a_y;
   const Real ballam0a_y = state.z[0] * ballbm3t_y;
   const Real ballbm3ap_x = s2 * ballbm3a_x;
-  const Real ballbm2b_y = ballbm2t_y - ballbm3vp_y * Real(2.0);
+  const Real ballbm2b_y = ballbm2t_y - ballbm3t_x * (c2 * Real(2.0));
   const Real t53 = t19 * ballda_y;
-  const Real t58 = t20 * (ballbm3ap_x - (ballam0a_y - (t30 * ballbm2b_y - t17 * t53)));
-  const Real t63 = t30 * ballbm2b_x + (ballbm3ap_y + (ballbx3_x * t58 - t16 * t53));
+  const Real t58 = t20 * (t30 * ballbm2b_y - (t17 * t53 + (ballam0a_y - ballbm3ap_x)));
+  const Real t63 = ballbx3_x * t58 + (t30 * ballbm2b_x + (ballbm3ap_y - t16 * t53));
   const Real S3b_t = s3 * Real(0.014849999999999999);
   const Real h3b_y = s3 * Real(0.075);
   const Real S2b_zz = s3 * S3b_t - Real(0.01525);
   const Real h2b_x = ballbx3_x * Real(0.25);
-  const Real v2P_y = t25 * h2b_x;
-  const Real v2L_z = t25 * S2b_zz;
-  const Real v3p_y = c2 * t28;
-  const Real v3P_x = t22 * h3b_y;
-  const Real T3 = t28 * v2P_y - (v3p_y * v3P_x + (Real(0.01525) * (t22 * t22) + (t28 * t28 * Real(2.5) - t25 *
-      v2L_z)) * Real(0.5) + Real(5e-05));
-  const Real S3b_xy = c3 * S3b_t;
+  const Real T3 = (t28 * (t28 * Real(2.5)) - (t25 * (t25 * S2b_zz) - t22 * (t22 * Real(0.01525)))) * Real(0.5)
+      + (t28 * (t22 * (c2 * h3b_y)) - (t28 * (t25 * h2b_x) - Real(5e-05)));
   const Real rdn2_z = t58 * S2b_zz;
   const Real rL2a_y = s2 * Real(9.81) + c2 * t63;
-  const Real rKx3 = t30 * S3b_xy;
-  const Real rdn3_y = Real(2.0) * (t31 * rKx3);
+  const Real rKx3 = t30 * (c3 * S3b_t);
+  const Real rdn3_y = rKx3 * (t31 * Real(2.0));
   const Real rdn3_z = t53 * Real(0.01525);
-  const Real rQ2_0 = t63 * h2b_x - (ballbx3_y * Real(2.4525) - (rdn2_z - rdn3_y));
+  const Real rQ2_0 = t63 * h2b_x + (rdn2_z - (ballbx3_y * Real(2.4525) + rdn3_y));
   const Real rQ3_0 = h3b_y * rL2a_y - (t30 * rKx3 - rdn3_z);
-  zdot[0] = (t25 * rQ2_0 - (t28 * t63 * Real(2.25) + t22 * rQ3_0)) / (Real(2.0) * T3);
+  zdot[0] = (t22 * rQ3_0 + (t63 * (t28 * Real(2.25)) - t25 * rQ2_0)) / (Real(2.0) * T3);
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -478,48 +460,38 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real t17 = ballbx_y * s2;
   const Real t19 = Real(1.0) / ballbx_x;
   const Real t20 = Real(1.0) / ballbx3_y;
-  const Real t22 = Real(0.08) * (c0 * t19);
+  const Real t22 = t19 * (Real(0.08) * c0);
   const Real t25 = t20 * (ballax_x - t17 * t22);
   const Real t28 = ballbx3_x * t25 - t16 * t22;
   const Real t30 = t25 * state.z[0];
   const Real t31 = t22 * state.z[0];
   const Real ballbm3t_x = ballbx_y * t31;
-  const Real ballbm3vp_y = c2 * ballbm3t_x;
   const Real ballbm2t_y = ballbx3_x * t30;
   const Real ballbm3t_y = ballbx_x * t31;
   const Real ballbm3a_x = t31 * ballbm3t_y;
-  const Real ballbm3vp_x = s2 * ballbm3t_x;
   const Real ballbm3ap_y = c2 * ballbm3a_x;
   const Real ballbm2t_x = ballbx3_y * t30;
-  const Real ballbm2b_x = ballbm2t_x + ballbm3vp_x * Real(2.0);
-  const Real ballbm2a_y = ballbm3ap_y + t30 * ballbm2b_x;
-  const Real ballam0t_y = ballax_x * state.z[0];
-  const Real ballam0a_x = state.z[0] * ballam0t_y;
+  const Real ballbm2b_x = ballbm2t_x + ballbm3t_x * (s2 * Real(2.0));
+  const Real ballam0a_x = ballax_x * (state.z[0] * state.z[0]);
   const Real ballbm3a_y = t31 * ballbm3t_x;
   const Real ballda_y = ballam0a_x - ballbm3a_y;
   const Real ballam0a_y = state.z[0] * ballbm3t_y;
   const Real ballbm3ap_x = s2 * ballbm3a_x;
-  const Real ballbm2b_y = ballbm2t_y - ballbm3vp_y * Real(2.0);
-  const Real ballbm2a_x = ballbm3ap_x + t30 * ballbm2b_y;
-  const Real ballda_z = ballam0a_y - ballbm2a_x;
-  const Real t56 = t19 * ballda_y;
-  const Real t59 = t20 * (ballda_z + t17 * t56);
-  const Real t66 = ballbm2a_y - ballbx3_x * t59 - t16 * t56 - t28 * zdot[0];
+  const Real ballbm2b_y = ballbm2t_y - ballbm3t_x * (c2 * Real(2.0));
+  const Real t53 = t19 * ballda_y;
+  const Real t58 = t20 * (t30 * ballbm2b_y - (t17 * t53 + (ballam0a_y - ballbm3ap_x)));
+  const Real t66 = ballbx3_x * t58 + (ballbm3ap_y - t16 * t53 + (t30 * ballbm2b_x - t28 * zdot[0]));
   const Real S3b_t = s3 * Real(0.014849999999999999);
-  const Real S3b_xy = c3 * S3b_t;
   const Real S2b_zz = s3 * S3b_t - Real(0.01525);
   const Real adn0_z = zdot[0] * Real(0.0001);
-  const Real aQp2 = ballbx3_y * Real(2.4525) - ballbx3_x * t66 * Real(0.25);
-  const Real adn2_z = (t59 + t25 * zdot[0]) * S2b_zz;
+  const Real adn2_z = (t58 - t25 * zdot[0]) * S2b_zz;
   const Real aL2a_y = s2 * Real(9.81) + c2 * t66;
-  const Real aKx3 = t30 * S3b_xy;
-  const Real aQp3 = t30 * aKx3 - s3 * aL2a_y * Real(0.075);
-  const Real adn3_y = Real(2.0) * (t31 * aKx3);
-  const Real adn3_z = (t56 - t22 * zdot[0]) * Real(0.01525);
-  const Real an2_z = adn2_z + adn3_y;
-  const Real aQ2_0 = aQp2 + an2_z;
-  const Real aQ3_0 = aQp3 - adn3_z;
-  tau[0] = adn0_z - t28 * t66 * Real(2.25) - t25 * aQ2_0 + t22 * aQ3_0;
+  const Real aKx3 = t30 * (c3 * S3b_t);
+  const Real adn3_y = aKx3 * (t31 * Real(2.0));
+  const Real adn3_z = (t53 - t22 * zdot[0]) * Real(0.01525);
+  const Real aQ2_0 = t66 * (ballbx3_x * Real(0.25)) + (adn2_z - (ballbx3_y * Real(2.4525) + adn3_y));
+  const Real aQ3_0 = aL2a_y * (s3 * Real(0.075)) - (t30 * aKx3 - adn3_z);
+  tau[0] = -(t22 * aQ3_0 - (t25 * aQ2_0 + (adn0_z - t66 * (t28 * Real(2.25)))));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -532,17 +504,15 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   detail::sine_cosine(state.y[0], s0, c0);
   const Real ballax_x = s0 * Real(0.08);
   const Real ballbx_y = Real(0.3) * s3;
-  const Real ballbx3_x = ballbx_x * s2;
-  const Real t19 = Real(0.08) * (c0 / ballbx_x);
-  const Real t22 = (ballax_x - ballbx_y * s2 * t19) / ballbx3_y;
-  const Real t27 = (ballbx3_x * t22 - c2 * ballbx_y * t19) * state.z[0];
-  const Real t28 = t22 * state.z[0];
-  const Real t29 = t19 * state.z[0];
-  const Real S2b_zz = s3 * s3 * Real(0.014849999999999999) - Real(0.01525);
+  const Real t16 = Real(0.08) * (c0 / ballbx_x);
+  const Real t20 = (ballax_x - t16 * (ballbx_y * s2)) / ballbx3_y;
+  const Real t27 = (t20 * (ballbx_x * s2) - t16 * (c2 * ballbx_y)) * state.z[0];
+  const Real t28 = t20 * state.z[0];
+  const Real t29 = t16 * state.z[0];
+  const Real S2b_zz = s3 * (s3 * Real(0.014849999999999999)) - Real(0.01525);
   const Real t38 = t27 * t27;
-  const Real v2L_z = t28 * S2b_zz;
-  const Real T3 = (t38 * Real(2.5) + (state.z[0] * state.z[0] * Real(0.0001) - (t28 * v2L_z - Real(0.01525) *
-      (t29 * t29)))) * Real(0.5) - t38 * Real(0.25);
+  const Real T3 = (t38 * Real(2.5) - (t28 * (t28 * S2b_zz) - (Real(0.0001) * (state.z[0] * state.z[0]) + t29 *
+      (t29 * Real(0.01525))))) * Real(0.5) - t38 * Real(0.25);
   return T3;
 }
 
@@ -550,7 +520,7 @@ template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real c3 = detail::cosine(state.y[3]);
   const Real s2 = detail::sine(state.y[2]);
-  const Real V = c3 * s2 * Real(0.73575) + Real(0.141264);
+  const Real V = s2 * (c3 * Real(0.73575)) + Real(0.141264);
   return V;
 }
 
@@ -568,8 +538,7 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
   const Real ballbx_y = Real(0.3) * s3;
   const Real ballax_y = Real(0.08) * c0;
   const Real ballax0_z = ballax_y + Real(0.12);
-  const Real ballbx3_x = ballbx_x * s2;
-  const Real t23 = ballax_y / ballbx_x;
+  const Real t20 = ballax_y / ballbx_x;
   result.pin_position.position[0] = Real(0.0);
   result.pin_position.position[1] = -ballax0_y;
   result.pin_position.position[2] = ballax0_z;
@@ -582,8 +551,8 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
   result.pin_position.rotation[2][0] = Real(0.0);
   result.pin_position.rotation[2][1] = s0;
   result.pin_position.rotation[2][2] = c0;
-  result.slider_speed = (ballbx3_x * ((ballax_x - ballbx_y * s2 * t23) / ballbx3_y) - c2 * ballbx_y * t23) *
-      state.z[0];
+  result.slider_speed = ((ballax_x - t20 * (ballbx_y * s2)) / ballbx3_y * (ballbx_x * s2) - t20 * (c2 *
+      ballbx_y)) * state.z[0];
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -608,12 +577,12 @@ void close_loops(const Model<Real>&, State<Real>& state) noexcept {
   Real t47, t46;
   detail::sine_cosine(state.y[2], t47, t46);
   const Real t54 = detail::arctangent2(t44 * t46 - t43 * t47, t43 * t46 + t44 * t47);
-  const Real t60 = t38 - state.y[1];
+  const Real t59 = t38 - state.y[1];
   closed.y[3] = state.y[3] + t28;
   closed.y[2] = state.y[2] + t54;
   closed.y[1] = t38;
   closed.regularity = -((t7 * Real(11.111111111111112) - Real(1.0)) * (Real(1.0) - t36 / t35));
-  closed.opening = t28 * t28 + t54 * t54 + t60 * t60;
+  closed.opening = t54 * t54 + (t28 * t28 + t59 * t59);
   state = closed;
 }
 
@@ -628,16 +597,14 @@ void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)
   Real s0, c0;
   detail::sine_cosine(state.y[0], s0, c0);
   const Real ballax_x = s0 * Real(0.08);
-  const Real ballax0_y = ballax_x - Real(0.1);
   const Real ballbx_y = Real(0.3) * s3;
-  const Real balld_y = ballax0_y - ballbx_y;
+  const Real balld_y = ballbx_y - (ballax_x - Real(0.1));
   const Real ballax_y = Real(0.08) * c0;
-  const Real ballax0_z = ballax_y + Real(0.12);
   const Real ballbx3_x = ballbx_x * s2;
-  const Real balld_z = ballax0_z - ballbx3_x;
+  const Real balld_z = ballbx3_x - (ballax_y + Real(0.12));
   g[0] = -ballbx1_x;
-  g[1] = balld_y;
-  g[2] = -balld_z;
+  g[1] = -balld_y;
+  g[2] = balld_z;
   g_rate[0] = Real(0.0);
   g_rate[1] = Real(0.0);
   g_rate[2] = Real(0.0);
@@ -659,61 +626,53 @@ void constraint_forces(const Model<Real>&, const State<Real>& state, const Input
   const Real t17 = ballbx_y * s2;
   const Real t19 = Real(1.0) / ballbx_x;
   const Real t20 = Real(1.0) / ballbx3_y;
-  const Real t22 = Real(0.08) * (c0 * t19);
+  const Real t22 = t19 * (Real(0.08) * c0);
   const Real t25 = t20 * (ballax_x - t17 * t22);
   const Real t28 = ballbx3_x * t25 - t16 * t22;
   const Real t30 = t25 * state.z[0];
   const Real t31 = t22 * state.z[0];
   const Real ballbm3t_x = ballbx_y * t31;
-  const Real ballbm3vp_y = c2 * ballbm3t_x;
   const Real ballbm2t_y = ballbx3_x * t30;
   const Real ballbm3t_y = ballbx_x * t31;
   const Real ballbm3a_x = t31 * ballbm3t_y;
-  const Real ballbm3vp_x = s2 * ballbm3t_x;
   const Real ballbm3ap_y = c2 * ballbm3a_x;
   const Real ballbm2t_x = ballbx3_y * t30;
-  const Real ballbm2b_x = ballbm2t_x + ballbm3vp_x * Real(2.0);
-  const Real ballam0t_y = ballax_x * state.z[0];
-  const Real ballam0a_x = state.z[0] * ballam0t_y;
+  const Real ballbm2b_x = ballbm2t_x + ballbm3t_x * (s2 * Real(2.0));
+  const Real ballam0a_x = ballax_x * (state.z[0] * state.z[0]);
   const Real ballbm3a_y = t31 * ballbm3t_x;
   const Real ballda_y = ballam0a_x - ballbm3a_y;
   const Real ballam0a_y = state.z[0] * ballbm3t_y;
   const Real ballbm3ap_x = s2 * ballbm3a_x;
-  const Real ballbm2b_y = ballbm2t_y - ballbm3vp_y * Real(2.0);
+  const Real ballbm2b_y = ballbm2t_y - ballbm3t_x * (c2 * Real(2.0));
   const Real t53 = t19 * ballda_y;
-  const Real t58 = t20 * (ballbm3ap_x - (ballam0a_y - (t30 * ballbm2b_y - t17 * t53)));
-  const Real t63 = t30 * ballbm2b_x + (ballbm3ap_y + (ballbx3_x * t58 - t16 * t53));
+  const Real t58 = t20 * (t30 * ballbm2b_y - (t17 * t53 + (ballam0a_y - ballbm3ap_x)));
+  const Real t63 = ballbx3_x * t58 + (t30 * ballbm2b_x + (ballbm3ap_y - t16 * t53));
   const Real S3b_t = s3 * Real(0.014849999999999999);
   const Real h3b_y = s3 * Real(0.075);
   const Real S2b_zz = s3 * S3b_t - Real(0.01525);
   const Real h2b_x = ballbx3_x * Real(0.25);
-  const Real v2P_y = t25 * h2b_x;
-  const Real v2L_z = t25 * S2b_zz;
-  const Real v3p_y = c2 * t28;
-  const Real v3P_x = t22 * h3b_y;
-  const Real T3 = t28 * v2P_y - (v3p_y * v3P_x + (Real(0.01525) * (t22 * t22) + (t28 * t28 * Real(2.5) - t25 *
-      v2L_z)) * Real(0.5) + Real(5e-05));
-  const Real S3b_xy = c3 * S3b_t;
-  const Real t96 = ballbx3_y * Real(2.4525);
+  const Real T3 = (t28 * (t28 * Real(2.5)) - (t25 * (t25 * S2b_zz) - t22 * (t22 * Real(0.01525)))) * Real(0.5)
+      + (t28 * (t22 * (c2 * h3b_y)) - (t28 * (t25 * h2b_x) - Real(5e-05)));
   const Real rdn2_z = t58 * S2b_zz;
-  const Real t100 = s2 * Real(9.81);
-  const Real rL2a_y = t100 + c2 * t63;
-  const Real rKx3 = t30 * S3b_xy;
+  const Real t99 = s2 * Real(9.81);
+  const Real rL2a_y = t99 + c2 * t63;
+  const Real rKx3 = t30 * (c3 * S3b_t);
   const Real t104 = t30 * rKx3;
-  const Real rdn3_y = Real(2.0) * (t31 * rKx3);
+  const Real rdn3_y = rKx3 * (t31 * Real(2.0));
   const Real rdn3_z = t53 * Real(0.01525);
-  const Real rQ2_0 = t63 * h2b_x - (t96 - (rdn2_z - rdn3_y));
+  const Real t109 = ballbx3_y * Real(2.4525) + rdn3_y;
+  const Real rQ2_0 = t63 * h2b_x + (rdn2_z - t109);
   const Real rQ3_0 = h3b_y * rL2a_y - (t104 - rdn3_z);
-  const Real t121 = (t25 * rQ2_0 - (t28 * t63 * Real(2.25) + t22 * rQ3_0)) / (Real(2.0) * T3);
+  const Real t121 = (t22 * rQ3_0 + (t63 * (t28 * Real(2.25)) - t25 * rQ2_0)) / (Real(2.0) * T3);
   const Real t123 = t63 - t28 * t121;
   const Real rdn2_z_2 = S2b_zz * (t58 - t25 * t121);
-  const Real rL2a_y_2 = t100 + c2 * t123;
+  const Real rL2a_y_2 = t99 + c2 * t123;
   const Real rdn3_z_2 = Real(0.01525) * (t53 - t22 * t121);
   const Real rf1_z = Real(2.25) * t123;
-  const Real t141 = t20 * (h2b_x * t123 - (t96 + (rdn3_y - (rdn2_z_2 - ballbx3_x * rf1_z))));
+  const Real t140 = t20 * (t109 - h2b_x * t123 - (rdn2_z_2 - ballbx3_x * rf1_z));
   lambda[0] = rf1_z;
-  lambda[1] = -(t19 * (h3b_y * rL2a_y_2 - (t104 - (rdn3_z_2 - (t16 * rf1_z - t17 * t141)))));
-  lambda[2] = t141;
+  lambda[1] = t19 * (t17 * t140 - (h3b_y * rL2a_y_2 - (t16 * rf1_z + (t104 - rdn3_z_2))));
+  lambda[2] = -t140;
 }
 
 template <class Real> JOURDAIN_FUNCTION

@@ -262,8 +262,8 @@ void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[3]
   const Real pinbx1_y = s0 + s1;
   const Real t21 = Real(1.0) / (s1 * c2 + c1 * s2);
   ydot[0] = state.z[0];
-  ydot[1] = -(t21 * (c2 * pinbx1_y - pinbx1_x * s2) * state.z[0]);
-  ydot[2] = t4 * t21 * state.z[0];
+  ydot[1] = -(t21 * ((c2 * pinbx1_y - pinbx1_x * s2) * state.z[0]));
+  ydot[2] = t21 * (t4 * state.z[0]);
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -280,8 +280,8 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[1][1]) 
   const Real t25 = t21 * (c2 * pinbx1_y - pinbx1_x * s2);
   const Real t26 = t4 * t21;
   const Real v1L_z = t25 * Real(0.3333333333333333);
-  const Real T2 = v1L_z + (s0 * (s1 * t25) - (c0 * (c1 * t25) + (Real(0.3333333333333333) * (t26 * t26) + (t5
-      + t25 * v1L_z) + Real(1.6666666666666667)))) * Real(0.5);
+  const Real T2 = v1L_z - (t25 * v1L_z + t25 * (c0 * c1) + (t26 * (t26 * Real(0.3333333333333333)) - (t25 *
+      (s0 * s1) - (t5 + Real(1.6666666666666667))))) * Real(0.5);
   M[0][0] = -(T2 * Real(2.0));
 }
 
@@ -301,22 +301,18 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[1]) noexcept 
   const Real t28 = t25 * state.z[0];
   const Real t29 = t26 * state.z[0];
   const Real w1_z = state.z[0] - t28;
-  const Real t37 = state.z[0] - t29;
-  const Real t39 = t28 * (c1 * w1_z) + c2 * t29 * t37;
-  const Real t41 = t28 * (s1 * w1_z) - s2 * t29 * t37;
-  const Real t45 = t21 * (c2 * t39 - s2 * t41);
+  const Real t33 = state.z[0] * state.z[0];
+  const Real t34 = c0 * t33;
+  const Real t35 = s0 * t33;
+  const Real t41 = w1_z * (c1 * w1_z) - (t34 - t29 * (c2 * t29));
+  const Real t45 = w1_z * (s1 * w1_z) - (t29 * (s2 * t29) - t35);
+  const Real t49 = t21 * (c2 * t41 - s2 * t45);
   const Real h1b_x = c1 * Real(0.5);
   const Real h1b_y = s1 * Real(0.5);
-  const Real kW0w22 = state.z[0] * state.z[0];
-  const Real ka1o_x = c0 * kW0w22;
-  const Real ka1o_y = s0 * kW0w22;
   const Real zw_1 = t28 * (state.z[0] + w1_z);
-  const Real kdf1_x = h1b_x * zw_1;
-  const Real kdf1_y = h1b_y * zw_1;
   const Real E1 = t5 * Real(0.5) + Real(0.3333333333333333);
-  k[0] = -(Real(0.3333333333333333) * (t26 * (t21 * (c1 * t39 + s1 * t41))) + (t25 * (t45 *
-      Real(0.3333333333333333) - (h1b_x * ka1o_y + h1b_y * ka1o_x)) - (t45 * E1 - (c0 * kdf1_y + s0 *
-      kdf1_x))));
+  k[0] = t25 * (t49 * Real(0.3333333333333333) + (t35 * h1b_x + t34 * h1b_y)) - (t49 * E1 - ((c1 * t41 + s1 *
+      t45) * (t26 * (t21 * Real(0.3333333333333333))) - (zw_1 * (c0 * h1b_y) + zw_1 * (s0 * h1b_x))));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -331,11 +327,10 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real pinbx1_x = c0 - c1;
   const Real pinbx1_y = s0 + s1;
   const Real t22 = Real(1.0) / (s1 * c2 + c1 * s2);
-  const Real t27 = t4 * t22;
-  const Real diagonalbv2_x = s2 * (t27 * state.z[0]);
+  const Real t26 = t4 * t22;
+  const Real diagonalbv2_x = t26 * (s2 * state.z[0]);
   const Real h1b_x = c1 * Real(0.5);
   const Real h0b_x = c0 * Real(1.5);
-  const Real h0_x = h1b_x - h0b_x;
   const Real diagonal_ll = pinax2_x * pinax2_x + (s2 * s2 + Real(1e-18));
   const Real diagonal_l = detail::square_root(diagonal_ll);
   const Real diagonal_rate = diagonalbv2_x / diagonal_l;
@@ -344,7 +339,7 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real diagonal_Tl = diagonal_T / diagonal_l;
   const Real diagonalf_y = s2 * diagonal_Tl;
   const Real q_2 = pinax2_x * diagonalf_y - c2 * (diagonalf_y + Real(4.905));
-  q[0] = -(t27 * q_2 + (h0_x - t22 * (c2 * pinbx1_y - pinbx1_x * s2) * h1b_x) * Real(9.81));
+  q[0] = -(t26 * q_2 - (t22 * ((c2 * pinbx1_y - pinbx1_x * s2) * h1b_x) - (h1b_x - h0b_x)) * Real(9.81));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -365,22 +360,21 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t29 = t26 * state.z[0];
   const Real t30 = t27 * state.z[0];
   const Real diagonalbv2_x = s2 * t30;
-  const Real diagonalbv2_y = c2 * t30;
   const Real w1_z = state.z[0] - t29;
-  const Real t38 = state.z[0] - t30;
-  const Real t40 = t29 * (c1 * w1_z) + diagonalbv2_y * t38;
-  const Real t42 = t29 * (s1 * w1_z) - diagonalbv2_x * t38;
-  const Real t46 = t22 * (c2 * t40 - s2 * t42);
+  const Real t34 = state.z[0] * state.z[0];
+  const Real t35 = c0 * t34;
+  const Real t36 = s0 * t34;
+  const Real t42 = w1_z * (c1 * w1_z) - (t35 - t30 * (c2 * t30));
+  const Real t46 = w1_z * (s1 * w1_z) - (t30 * diagonalbv2_x - t36);
+  const Real t50 = t22 * (c2 * t42 - s2 * t46);
   const Real h1b_x = c1 * Real(0.5);
   const Real h1b_y = s1 * Real(0.5);
-  const Real v1P_x = t26 * h1b_y;
-  const Real v1P_y = t26 * h1b_x;
   const Real v1L_z = t26 * Real(0.3333333333333333);
-  const Real T2 = Real(0.5) * (t26 * v1L_z + (t5 + Real(0.3333333333333333) * (t27 * t27)) +
-      Real(1.6666666666666667)) + (c0 * v1P_y - (v1L_z + s0 * v1P_x));
+  const Real T2 = Real(0.5) * (t27 * (t27 * Real(0.3333333333333333)) + (t26 * v1L_z + (t5 +
+      Real(1.6666666666666667)))) + (t26 * (c0 * h1b_x) - (v1L_z + t26 * (s0 * h1b_y)));
   const Real h0b_x = c0 * Real(1.5);
   const Real h0_x = h1b_x - h0b_x;
-  const Real diagonal_ll = s2 * s2 + pinax2_x * pinax2_x + Real(1e-18);
+  const Real diagonal_ll = pinax2_x * pinax2_x + (s2 * s2 + Real(1e-18));
   const Real diagonal_l = detail::square_root(diagonal_ll);
   const Real diagonal_rate = diagonalbv2_x / diagonal_l;
   const Real diagonal_e = diagonal_l - Real(1.4142135623730951);
@@ -388,17 +382,15 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real diagonal_Tl = diagonal_T / diagonal_l;
   const Real diagonalf_y = s2 * diagonal_Tl;
   const Real rQp0 = h0_x * Real(9.81);
-  const Real rW0w22 = state.z[0] * state.z[0];
-  const Real ra1o_x = c0 * rW0w22;
-  const Real ra1o_y = Real(9.81) - s0 * rW0w22;
+  const Real ra1o_y = t36 - Real(9.81);
   const Real zw_1 = t29 * (state.z[0] + w1_z);
-  const Real rdf1_x = t46 * h1b_y - h1b_x * zw_1;
-  const Real rdf1_y = t46 * h1b_x + h1b_y * zw_1;
-  const Real rdn1_z = t46 * Real(0.3333333333333333);
-  const Real rdn2_z = t22 * (c1 * t40 + s1 * t42) * Real(0.3333333333333333);
-  const Real rQ1_0 = rdn1_z + (h1b_x * ra1o_y - h1b_y * ra1o_x);
-  const Real tau_2_0 = rdn2_z - (pinax2_x * diagonalf_y - c2 * (diagonalf_y + Real(4.905)));
-  zdot[0] = -((t27 * tau_2_0 + (t26 * rQ1_0 - (s0 * rdf1_x - (c0 * rdf1_y - (rQp0 + rdn1_z))))) / (T2 *
+  const Real rdf1_x = t50 * h1b_y + h1b_x * zw_1;
+  const Real rdf1_y = t50 * h1b_x - h1b_y * zw_1;
+  const Real rdn1_z = t50 * Real(0.3333333333333333);
+  const Real rdn2_z = (c1 * t42 + s1 * t46) * (t22 * Real(0.3333333333333333));
+  const Real rQ1_0 = rdn1_z + (h1b_x * ra1o_y + t35 * h1b_y);
+  const Real tau_2_0 = c2 * (diagonalf_y + Real(4.905)) - (pinax2_x * diagonalf_y + rdn2_z);
+  zdot[0] = -((t27 * tau_2_0 - (c0 * rdf1_y + (rQp0 - rdn1_z) - (s0 * rdf1_x - t26 * rQ1_0))) / (T2 *
       Real(2.0)));
 }
 
@@ -420,18 +412,19 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t29 = t26 * state.z[0];
   const Real t30 = t27 * state.z[0];
   const Real diagonalbv2_x = s2 * t30;
-  const Real diagonalbv2_y = c2 * t30;
   const Real w1_z = state.z[0] - t29;
-  const Real t38 = state.z[0] - t30;
-  const Real t40 = t29 * (c1 * w1_z) + diagonalbv2_y * t38;
-  const Real t42 = t29 * (s1 * w1_z) - diagonalbv2_x * t38;
-  const Real t53 = t22 * (c2 * t40 - s2 * t42) + t26 * zdot[0];
+  const Real t34 = state.z[0] * state.z[0];
+  const Real t35 = c0 * t34;
+  const Real t36 = s0 * t34;
+  const Real t42 = w1_z * (c1 * w1_z) - (t35 - t30 * (c2 * t30));
+  const Real t46 = w1_z * (s1 * w1_z) - (t30 * diagonalbv2_x - t36);
+  const Real t57 = t22 * (c2 * t42 - s2 * t46) - t26 * zdot[0];
   const Real h1b_x = c1 * Real(0.5);
   const Real h1b_y = s1 * Real(0.5);
   const Real h0b_x = c0 * Real(1.5);
   const Real h0_x = h1b_x - h0b_x;
   const Real J0 = t5 + Real(1.6666666666666667);
-  const Real diagonal_ll = s2 * s2 + pinax2_x * pinax2_x + Real(1e-18);
+  const Real diagonal_ll = pinax2_x * pinax2_x + (s2 * s2 + Real(1e-18));
   const Real diagonal_l = detail::square_root(diagonal_ll);
   const Real diagonal_rate = diagonalbv2_x / diagonal_l;
   const Real diagonal_e = diagonal_l - Real(1.4142135623730951);
@@ -440,17 +433,16 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real diagonalf_y = s2 * diagonal_Tl;
   const Real aQp0 = h0_x * Real(9.81);
   const Real adn0_z = zdot[0] * J0;
-  const Real aW0w22 = state.z[0] * state.z[0];
-  const Real aa1o_x = s0 * zdot[0] + c0 * aW0w22;
-  const Real aa1o_y = c0 * zdot[0] + (Real(9.81) - s0 * aW0w22);
+  const Real aa1o_x = t35 + s0 * zdot[0];
+  const Real aa1o_y = c0 * zdot[0] - (t36 - Real(9.81));
   const Real zw_1 = t29 * (state.z[0] + w1_z);
-  const Real adf1_x = t53 * h1b_y - h1b_x * zw_1;
-  const Real adf1_y = t53 * h1b_x + h1b_y * zw_1;
-  const Real adn1_z = t53 * Real(0.3333333333333333);
-  const Real adn2_z = (t22 * (c1 * t40 + s1 * t42) + t27 * zdot[0]) * Real(0.3333333333333333);
-  const Real aQ1_0 = h1b_x * aa1o_y - (zdot[0] * Real(0.3333333333333333) + (h1b_y * aa1o_x - adn1_z));
-  const Real tau_2_0 = adn2_z - (pinax2_x * diagonalf_y - c2 * (diagonalf_y + Real(4.905)));
-  tau[0] = -(adn1_z + (aQp0 - (adn0_z + (c0 * adf1_y - (s0 * adf1_x - (t26 * aQ1_0 + t27 * tau_2_0))))));
+  const Real adf1_x = t57 * h1b_y + h1b_x * zw_1;
+  const Real adf1_y = t57 * h1b_x - h1b_y * zw_1;
+  const Real adn1_z = t57 * Real(0.3333333333333333);
+  const Real adn2_z = (t22 * (c1 * t42 + s1 * t46) - t27 * zdot[0]) * Real(0.3333333333333333);
+  const Real aQ1_0 = adn1_z + (h1b_y * aa1o_x + (zdot[0] * Real(0.3333333333333333) - h1b_x * aa1o_y));
+  const Real tau_2_0 = c2 * (diagonalf_y + Real(4.905)) - (pinax2_x * diagonalf_y + adn2_z);
+  tau[0] = t27 * tau_2_0 - (c0 * adf1_y - (adn1_z - (aQp0 - adn0_z)) - (s0 * adf1_x - t26 * aQ1_0));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -464,15 +456,13 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real pinbx1_x = c0 - c1;
   const Real pinbx1_y = s0 + s1;
   const Real t21 = Real(1.0) / (s1 * c2 + c1 * s2);
-  const Real t28 = t21 * (c2 * pinbx1_y - pinbx1_x * s2) * state.z[0];
-  const Real t29 = t4 * t21 * state.z[0];
-  const Real v1o_y = c0 * state.z[0];
-  const Real v1o_x = s0 * state.z[0];
+  const Real t27 = t21 * ((c2 * pinbx1_y - pinbx1_x * s2) * state.z[0]);
+  const Real t29 = t21 * (t4 * state.z[0]);
   const Real J0 = t5 + Real(1.6666666666666667);
-  const Real v0L_z = state.z[0] * J0;
-  const Real v1L_z = t28 * Real(0.3333333333333333);
-  const Real T2 = state.z[0] * v1L_z - (Real(0.3333333333333333) * (t29 * t29) + (state.z[0] * v0L_z + t28 *
-      v1L_z) - (v1o_x * (s1 * t28) - v1o_y * (c1 * t28))) * Real(0.5);
+  const Real v1L_z = t27 * Real(0.3333333333333333);
+  const Real T2 = state.z[0] * v1L_z - (t27 * v1L_z + t27 * (c1 * (c0 * state.z[0])) + (t29 * (t29 *
+      Real(0.3333333333333333)) + (J0 * (state.z[0] * state.z[0]) - t27 * (s1 * (s0 * state.z[0]))))) *
+      Real(0.5);
   return -T2;
 }
 
@@ -483,13 +473,12 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
   const Real pinax2_x = c2 + Real(1.0);
   Real t8, t9;
   detail::sine_cosine(state.y[1], t8, t9);
-  const Real s1 = t7 * t8 + s0 * t9;
   const Real h0b_y = s0 * Real(1.5);
-  const Real hg2_y = h0b_y + (s1 + s2) * Real(0.5);
+  const Real hg2_y = h0b_y + (s0 * t9 + (t7 * t8 + s2)) * Real(0.5);
   const Real diagonal_ll = pinax2_x * pinax2_x + (s2 * s2 + Real(1e-18));
   const Real diagonal_l = detail::square_root(diagonal_ll);
   const Real diagonal_e = diagonal_l - Real(1.4142135623730951);
-  const Real V = hg2_y * Real(9.81) + diagonal_e * diagonal_e * model.c2;
+  const Real V = hg2_y * Real(9.81) + diagonal_e * (diagonal_e * model.c2);
   return V;
 }
 
@@ -524,35 +513,29 @@ void close_loops(const Model<Real>&, State<Real>& state) noexcept {
   const Real c1 = s0 * t5 - c0 * t6;
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
-  const Real pinax2_x = c2 + Real(1.0);
-  const Real pinbx1_x = c0 - c1;
-  const Real pind_x = pinax2_x - pinbx1_x;
-  const Real pinbx1_y = s0 + s1;
-  const Real pind_y = s2 - pinbx1_y;
+  const Real pind_x = c2 + Real(1.0) - (c0 - c1);
+  const Real pind_y = s1 + (s0 - s2);
   const Real t24 = Real(1.0) / (s1 * c2 + c1 * s2);
-  const Real t28 = t24 * (c2 * pind_x + s2 * pind_y);
-  const Real t32 = t24 * (c1 * pind_x - s1 * pind_y);
-  Real t38, t39;
-  detail::sine_cosine(t28, t38, t39);
-  const Real t42 = t6 * t38 - t5 * t39;
-  const Real t45 = t5 * t38 + t6 * t39;
-  const Real s1_2 = c0 * t42 - s0 * t45;
-  const Real c1_2 = s0 * t42 + c0 * t45;
-  Real t52, t53;
-  detail::sine_cosine(t32, t52, t53);
-  const Real s2_2 = c2 * t52 + s2 * t53;
-  const Real c2_2 = s2 * t52 - c2 * t53;
-  const Real pinax2_x_2 = Real(1.0) - c2_2;
-  const Real pinbx1_x_2 = c0 + c1_2;
-  const Real pind_x_2 = pinax2_x_2 - pinbx1_x_2;
-  const Real pinbx1_y_2 = s0 - s1_2;
-  const Real pind_y_2 = s2_2 - pinbx1_y_2;
-  const Real t67 = s1_2 * c2_2 - c1_2 * s2_2;
-  const Real t68 = Real(1.0) / t67;
-  closed.regularity = -(t67 * Real(1.0000067850620302));
+  const Real t28 = t24 * (c2 * pind_x - s2 * pind_y);
+  const Real t32 = t24 * (c1 * pind_x + s1 * pind_y);
+  Real t36, t37;
+  detail::sine_cosine(t28, t36, t37);
+  const Real t40 = t6 * t36 - t5 * t37;
+  const Real t43 = t5 * t36 + t6 * t37;
+  const Real s1_2 = c0 * t40 - s0 * t43;
+  const Real c1_2 = s0 * t40 + c0 * t43;
+  Real t50, t51;
+  detail::sine_cosine(t32, t50, t51);
+  const Real s2_2 = c2 * t50 + s2 * t51;
+  const Real c2_2 = s2 * t50 - c2 * t51;
+  const Real pind_x_2 = c1_2 + (c2_2 + (c0 - Real(1.0)));
+  const Real pind_y_2 = s1_2 - (s0 - s2_2);
+  const Real t65 = s1_2 * c2_2 - c1_2 * s2_2;
+  const Real t66 = Real(1.0) / t65;
+  closed.regularity = -(t65 * Real(1.0000067850620302));
   closed.opening = t28 * t28 + t32 * t32;
-  closed.y[1] = state.y[1] - t28 + t68 * (c2_2 * pind_x_2 - s2_2 * pind_y_2);
-  closed.y[2] = state.y[2] + t32 - t68 * (c1_2 * pind_x_2 - s1_2 * pind_y_2);
+  closed.y[1] = -(t66 * (c2_2 * pind_x_2 + s2_2 * pind_y_2) - (state.y[1] - t28));
+  closed.y[2] = t66 * (c1_2 * pind_x_2 + s1_2 * pind_y_2) + (state.y[2] + t32);
   closed.beyond[0] = (state.y[0] - Real(0.5)) * (state.y[0] - Real(2.95));
   state = closed;
 }
@@ -562,17 +545,12 @@ void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)
     noexcept {
   Real s0, c0, t4, t5;
   detail::sine_cosine2(state.y[0], s0, c0, state.y[1], t4, t5);
-  const Real s1 = c0 * t4 + s0 * t5;
-  const Real c1 = s0 * t4 - c0 * t5;
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
-  const Real pinax2_x = c2 + Real(1.0);
-  const Real pinbx1_x = c0 - c1;
-  const Real pind_x = pinax2_x - pinbx1_x;
-  const Real pinbx1_y = s0 + s1;
-  const Real pind_y = s2 - pinbx1_y;
+  const Real pind_x = c2 + Real(1.0) - (c0 - (s0 * t4 - c0 * t5));
+  const Real pind_y = s0 - s2 + (c0 * t4 + s0 * t5);
   g[0] = -pind_x;
-  g[1] = -pind_y;
+  g[1] = pind_y;
   g_rate[0] = Real(0.0);
   g_rate[1] = Real(0.0);
 }
@@ -595,23 +573,22 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t29 = t26 * state.z[0];
   const Real t30 = t27 * state.z[0];
   const Real diagonalbv2_x = s2 * t30;
-  const Real diagonalbv2_y = c2 * t30;
   const Real w1_z = state.z[0] - t29;
-  const Real t38 = state.z[0] - t30;
-  const Real t40 = t29 * (c1 * w1_z) + diagonalbv2_y * t38;
-  const Real t42 = t29 * (s1 * w1_z) - diagonalbv2_x * t38;
-  const Real t46 = t22 * (c2 * t40 - s2 * t42);
-  const Real t50 = t22 * (c1 * t40 + s1 * t42);
+  const Real t34 = state.z[0] * state.z[0];
+  const Real ra1o_x = c0 * t34;
+  const Real t36 = s0 * t34;
+  const Real t42 = w1_z * (c1 * w1_z) - (ra1o_x - t30 * (c2 * t30));
+  const Real t46 = w1_z * (s1 * w1_z) - (t30 * diagonalbv2_x - t36);
+  const Real t50 = t22 * (c2 * t42 - s2 * t46);
+  const Real t54 = t22 * (c1 * t42 + s1 * t46);
   const Real h1b_x = c1 * Real(0.5);
   const Real h1b_y = s1 * Real(0.5);
-  const Real v1P_x = t26 * h1b_y;
-  const Real v1P_y = t26 * h1b_x;
   const Real v1L_z = t26 * Real(0.3333333333333333);
-  const Real T2 = Real(0.5) * (t26 * v1L_z + (t5 + Real(0.3333333333333333) * (t27 * t27)) +
-      Real(1.6666666666666667)) + (c0 * v1P_y - (v1L_z + s0 * v1P_x));
+  const Real T2 = Real(0.5) * (t27 * (t27 * Real(0.3333333333333333)) + (t26 * v1L_z + (t5 +
+      Real(1.6666666666666667)))) + (t26 * (c0 * h1b_x) - (v1L_z + t26 * (s0 * h1b_y)));
   const Real h0b_x = c0 * Real(1.5);
   const Real h0_x = h1b_x - h0b_x;
-  const Real diagonal_ll = s2 * s2 + pinax2_x * pinax2_x + Real(1e-18);
+  const Real diagonal_ll = pinax2_x * pinax2_x + (s2 * s2 + Real(1e-18));
   const Real diagonal_l = detail::square_root(diagonal_ll);
   const Real diagonal_rate = diagonalbv2_x / diagonal_l;
   const Real diagonal_e = diagonal_l - Real(1.4142135623730951);
@@ -619,25 +596,23 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real diagonal_Tl = diagonal_T / diagonal_l;
   const Real diagonalf_y = s2 * diagonal_Tl;
   const Real rQp0 = h0_x * Real(9.81);
-  const Real rW0w22 = state.z[0] * state.z[0];
-  const Real ra1o_x = c0 * rW0w22;
-  const Real ra1o_y = Real(9.81) - s0 * rW0w22;
+  const Real ra1o_y = t36 - Real(9.81);
   const Real zw_1 = t29 * (state.z[0] + w1_z);
-  const Real rdf1_x = t46 * h1b_y - h1b_x * zw_1;
-  const Real rdf1_y = t46 * h1b_x + h1b_y * zw_1;
-  const Real rdn1_z = t46 * Real(0.3333333333333333);
-  const Real rdn2_z = t50 * Real(0.3333333333333333);
-  const Real rQ1_0 = rdn1_z + (h1b_x * ra1o_y - h1b_y * ra1o_x);
-  const Real t118 = pinax2_x * diagonalf_y - c2 * (diagonalf_y + Real(4.905));
-  const Real tau_2_0 = rdn2_z - t118;
-  const Real t127 = (t27 * tau_2_0 + (t26 * rQ1_0 - (s0 * rdf1_x - (c0 * rdf1_y - (rQp0 + rdn1_z))))) / (T2 *
+  const Real rdf1_x = t50 * h1b_y + h1b_x * zw_1;
+  const Real rdf1_y = t50 * h1b_x - h1b_y * zw_1;
+  const Real rdn1_z = t50 * Real(0.3333333333333333);
+  const Real rdn2_z = t54 * Real(0.3333333333333333);
+  const Real rQ1_0 = rdn1_z + (h1b_x * ra1o_y + ra1o_x * h1b_y);
+  const Real t119 = pinax2_x * diagonalf_y - c2 * (diagonalf_y + Real(4.905));
+  const Real tau_2_0 = rdn2_z + t119;
+  const Real t128 = (t27 * tau_2_0 + (c0 * rdf1_y + (rQp0 - rdn1_z) - (s0 * rdf1_x - t26 * rQ1_0))) / (T2 *
       Real(2.0));
-  const Real ra1o_x_2 = ra1o_x - s0 * t127;
-  const Real ra1o_y_2 = ra1o_y - c0 * t127;
-  const Real rdn2_z_2 = Real(0.3333333333333333) * (t50 - t27 * t127);
-  const Real rQ1_0_2 = Real(0.3333333333333333) * (t127 + (t46 - t26 * t127)) + (h1b_x * ra1o_y_2 - h1b_y *
+  const Real ra1o_x_2 = ra1o_x + s0 * t128;
+  const Real ra1o_y_2 = ra1o_y - c0 * t128;
+  const Real rdn2_z_2 = Real(0.3333333333333333) * (t54 - t27 * t128);
+  const Real rQ1_0_2 = Real(0.3333333333333333) * (t26 * t128 - (t50 + t128)) - (h1b_x * ra1o_y_2 + h1b_y *
       ra1o_x_2);
-  const Real tau_2_0_2 = t118 - rdn2_z_2;
+  const Real tau_2_0_2 = t119 + rdn2_z_2;
   lambda[0] = -(t22 * (c2 * rQ1_0_2 - c1 * tau_2_0_2));
   lambda[1] = -(t22 * (s2 * rQ1_0_2 + s1 * tau_2_0_2));
 }

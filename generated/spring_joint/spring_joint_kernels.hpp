@@ -212,8 +212,7 @@ template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[3]) noexcept {
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
-  const Real kL2w22 = state.z[2] * state.z[2];
-  const Real kL2f_x = kL2w22 * Real(0.5);
+  const Real kL2f_x = Real(0.5) * (state.z[2] * state.z[2]);
   const Real kL2F_x = c2 * kL2f_x;
   const Real kL2F_y = s2 * kL2f_x;
   k[0] = kL2F_x;
@@ -225,8 +224,7 @@ template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Real (&q)[3]) noexcept {
   const Real c2 = detail::cosine(state.y[2]);
   const Real push0_0 = state.y[0] * model.k + state.z[0] * model.expression_2;
-  const Real push1_0 = model.k * state.y[1] + model.expression_2 * state.z[1];
-  const Real q_1 = push1_0 + Real(9.81);
+  const Real q_1 = model.expression_2 * state.z[1] + (model.k * state.y[1] + Real(9.81));
   const Real q_2 = c2 * Real(4.905);
   q[0] = push0_0;
   q[1] = q_1;
@@ -246,22 +244,18 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real lg2 = c2 * Real(14.715000000000002);
   const Real lk0 = lww2 * lac2_1;
   const Real lk1 = lww2 * las2_1;
-  const Real lu0 = lk0 - push0_0 * Real(3.0);
-  const Real lu1 = lk1 - (push1_0 * Real(3.0) + Real(29.430000000000003));
-  const Real t31 = lac2_1 * lac2_1;
-  const Real H2_1_1 = Real(3.0) - t31;
+  const Real t28 = lac2_1 * lac2_1;
+  const Real H2_1_1 = Real(3.0) - t28;
   const Real H2_1_0 = lac2_1 * las2_1;
-  const Real H2_0_0 = t31 + Real(0.75);
-  const Real u2_1 = lu1 + lac2_1 * lg2;
-  const Real u2_0 = lu0 - las2_1 * lg2;
+  const Real u2_1 = lac2_1 * lg2 + (lk1 - (push1_0 * Real(3.0) + Real(29.430000000000003)));
   const Real invD_1 = Real(1.0) / H2_1_1;
   const Real L_1_0 = H2_1_0 * invD_1;
-  const Real H1_0_0 = H2_0_0 - H2_1_0 * L_1_0;
-  const Real u1_0 = u2_0 - u2_1 * L_1_0;
+  const Real H1_0_0 = H2_1_0 * L_1_0 - (t28 + Real(0.75));
+  const Real u1_0 = u2_1 * L_1_0 + (las2_1 * lg2 - (lk0 - push0_0 * Real(3.0)));
   const Real y_0 = u1_0 / H1_0_0;
   const Real y_1 = u2_1 * invD_1;
   const Real zdot_1 = y_1 - L_1_0 * y_0;
-  const Real zdot_2 = lg2 + (lac2_1 * zdot_1 - las2_1 * y_0);
+  const Real zdot_2 = lac2_1 * zdot_1 + (lg2 - las2_1 * y_0);
   zdot[0] = y_0;
   zdot[1] = zdot_1;
   zdot[2] = -zdot_2;
@@ -274,30 +268,25 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   detail::sine_cosine(state.y[2], s2, c2);
   const Real h2b_x = c2 * Real(0.5);
   const Real h2b_y = s2 * Real(0.5);
-  const Real push0_0 = state.y[0] * model.k + state.z[0] * model.expression_2;
-  const Real push1_0 = model.k * state.y[1] + model.expression_2 * state.z[1];
   const Real aa1c_z = zdot[1] + Real(9.81);
-  const Real aQp2 = h2b_y * zdot[0] - h2b_x * aa1c_z;
   const Real zw_2 = state.z[2] * state.z[2];
-  const Real adf2_x = h2b_y * zdot[2] + h2b_x * zw_2;
-  const Real adf2_y = h2b_x * zdot[2] - h2b_y * zw_2;
   const Real adn2_z = zdot[2] * Real(0.3333333333333333);
-  const Real af0_z = zdot[0] - adf2_x;
-  const Real aQ1_0 = aa1c_z + adf2_y;
-  const Real aQ2_0 = aQp2 - adn2_z;
-  const Real tau_0_0 = push0_0 + af0_z;
-  const Real tau_1_0 = push1_0 + aQ1_0;
-  tau[0] = tau_0_0;
-  tau[1] = tau_1_0;
-  tau[2] = -aQ2_0;
+  const Real aQ2_0 = h2b_x * aa1c_z - (h2b_y * zdot[0] - adn2_z);
+  const Real tau_0_0 = h2b_x * zw_2 + (h2b_y * zdot[2] - (state.z[0] * model.expression_2 + (state.y[0] *
+      model.k + zdot[0])));
+  const Real tau_1_0 = h2b_y * zw_2 - (h2b_x * zdot[2] + (aa1c_z + (model.k * state.y[1] + model.expression_2
+      * state.z[1])));
+  tau[0] = -tau_0_0;
+  tau[1] = -tau_1_0;
+  tau[2] = aQ2_0;
 }
 
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
-  const Real T2 = (state.z[0] * (state.z[0] - s2 * state.z[2]) + (state.z[2] * state.z[2] *
-      Real(0.3333333333333333) + state.z[1] * (state.z[1] + c2 * state.z[2]))) * Real(0.5);
+  const Real T2 = (state.z[1] * (state.z[1] + c2 * state.z[2]) + (Real(0.3333333333333333) * (state.z[2] *
+      state.z[2]) + state.z[0] * (state.z[0] - s2 * state.z[2]))) * Real(0.5);
   return T2;
 }
 

@@ -198,9 +198,8 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[2][2]) 
 
 template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[2]) noexcept {
-  const Real kL0w22 = state.z[0] * state.z[0];
-  const Real ka1o_x = kL0w22 * state.y[1];
-  const Real kn1c_z = state.y[1] * (state.z[0] * state.z[1]) * Real(2.0);
+  const Real ka1o_x = state.y[1] * (state.z[0] * state.z[0]);
+  const Real kn1c_z = state.z[0] * state.y[1] * (state.z[1] * Real(2.0));
   k[0] = -kn1c_z;
   k[1] = ka1o_x;
 }
@@ -209,10 +208,9 @@ template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Real (&q)[2]) noexcept {
   Real s0, c0;
   detail::sine_cosine(state.y[0], s0, c0);
-  const Real h0b_y = s0 * state.y[1];
   const Real stretch1 = state.y[1] - Real(1.0);
   const Real push1_0 = stretch1 * model.k;
-  const Real q_0 = h0b_y * Real(9.81);
+  const Real q_0 = s0 * (state.y[1] * Real(9.81));
   const Real g1p_x = c0 * Real(9.81);
   const Real q_1 = push1_0 - g1p_x;
   q[0] = q_0;
@@ -224,20 +222,18 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
     noexcept {
   Real s0, c0;
   detail::sine_cosine(state.y[0], s0, c0);
-  const Real h0b_y = s0 * state.y[1];
   const Real stretch1 = state.y[1] - Real(1.0);
   const Real push1_0 = stretch1 * model.k;
-  const Real bQp0 = h0b_y * Real(9.81);
+  const Real bQp0 = s0 * (state.y[1] * Real(9.81));
   const Real bL0a_x = c0 * Real(9.81);
-  const Real bL0w22 = state.z[0] * state.z[0];
-  const Real ba1o_x = bL0a_x + state.y[1] * bL0w22;
-  const Real bn1c_z = state.y[1] * (state.z[0] * state.z[1]) * Real(2.0);
+  const Real t13 = state.y[1] * state.z[0];
+  const Real bn1c_z = t13 * (state.z[1] * Real(2.0));
   const Real bQ0_0 = bQp0 + bn1c_z;
-  const Real b_1 = push1_0 - ba1o_x;
+  const Real b_1 = bL0a_x - (push1_0 - state.z[0] * t13);
   const Real S1c_xx = state.y[1] * state.y[1];
   const Real y_0 = bQ0_0 / S1c_xx;
   zdot[0] = -y_0;
-  zdot[1] = -b_1;
+  zdot[1] = b_1;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -249,32 +245,25 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real push1_0 = stretch1 * model.k;
   const Real ala1p_x = c0 * Real(9.81);
   const Real ala1p_y = s0 * Real(9.81);
-  const Real ala1w22 = state.z[0] * state.z[0];
-  const Real ala1o_x = ala1p_x + state.y[1] * ala1w22;
-  const Real ala1o_y = ala1p_y + state.y[1] * zdot[0];
-  const Real ala1co_x = state.z[0] * state.z[1] * Real(2.0);
-  const Real ala1L_x = ala1o_y + ala1co_x;
-  const Real ala1L_z = ala1o_x - zdot[1];
+  const Real ala1co_x = Real(2.0) * (state.z[0] * state.z[1]);
+  const Real ala1L_x = ala1p_y + (state.y[1] * zdot[0] + ala1co_x);
   const Real an1c_z = state.y[1] * ala1L_x;
-  const Real tau_1_0 = push1_0 - ala1L_z;
+  const Real tau_1_0 = ala1p_x + (state.z[0] * (state.y[1] * state.z[0]) - (push1_0 + zdot[1]));
   tau[0] = an1c_z;
-  tau[1] = tau_1_0;
+  tau[1] = -tau_1_0;
 }
 
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
-  const Real S1c_xx = state.y[1] * state.y[1];
-  const Real v0L_z = S1c_xx * state.z[0];
-  const Real T1 = (state.z[0] * v0L_z + state.z[1] * state.z[1]) * Real(0.5);
+  const Real T1 = (state.y[1] * state.y[1] * (state.z[0] * state.z[0]) + state.z[1] * state.z[1]) * Real(0.5);
   return T1;
 }
 
 template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept {
   const Real c0 = detail::cosine(state.y[0]);
-  const Real h0b_x = c0 * state.y[1];
   const Real stretch1 = state.y[1] - Real(1.0);
-  const Real V = h0b_x * Real(9.81) - stretch1 * stretch1 * model.c1;
+  const Real V = c0 * (state.y[1] * Real(9.81)) - stretch1 * (stretch1 * model.c1);
   return -V;
 }
 

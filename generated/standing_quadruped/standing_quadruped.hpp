@@ -11,7 +11,7 @@
 // Assumptions
 // - bodies are rigid; joints are ideal and without limits
 // - quaternions are near unit length; a step ends with unit length
-// - limbs that are alike are computed at once, as lanes of vectors: 1857 of 3132 operations of
+// - limbs that are alike are computed at once, as lanes of vectors: 1924 of 3113 operations of
 //   forward_dynamics go with others (--no-lanes: one after the other)
 // - time is a sum of three numbers, which 7 additions move
 // Left out
@@ -34,8 +34,8 @@
 //   linearly_implicit_euler_step, ros34pw2_step, rosw43_step, rodas4_step
 // Checked before this file was written
 // - validated at 8 states: in 77 digits everything below agrees to 1e-40 of its scale (what rounding can move
-//   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 2.9e-16 of the
-//   sum of absolute terms, other errors are 1.1e-15 of their scale; cond(M) up to 1.9e+04
+//   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 2.6e-16 of the
+//   sum of absolute terms, other errors are 7.4e-16 of their scale; cond(M) up to 1.9e+04
 // - 8 kinks of abs, min, max, floor and if, 8 compared on both sides, the nearest 1e-02 of its scale away
 // - the symbolic equations (M, k_bar, q_bar, Z z, energies, initial y, initial z): the numeric reference
 // - initial_state: the description's start
@@ -242,14 +242,14 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[26]) no
 /// Applied forces q_bar: gravity, springs, dampers, loads, inputs. Sign as in M zdot = k_bar - q_bar:
 /// a force that pushes a coordinate forward makes its entry negative.
 /// Entries of states are their rates, negative.
-/// 1005 operations (553 mul, 448 add and sub, 0 div), 24 sin and cos, 8 selections.
+/// 1000 operations (553 mul, 443 add and sub, 0 div), 24 sin and cos, 8 selections.
 template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real (&q)[26])
     noexcept;
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
 /// Entries of states are their rates.
-/// 3132 operations (1667 mul, 1447 add and sub, 14 div), 24 sin and cos, 8 selections.
+/// 3113 operations (1667 mul, 1428 add and sub, 14 div), 24 sin and cos, 8 selections.
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[26]) noexcept;
@@ -257,7 +257,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
 /// Generalized forces tau = M zdot - k_bar + q_bar at u = 0 that are missing for the given accelerations
 /// `zdot`, N m or N.
 /// Entries of states are zdot less their rates.
-/// 2152 operations (1147 mul, 1001 add and sub, 0 div), 24 sin and cos, 8 selections.
+/// 2151 operations (1147 mul, 1000 add and sub, 0 div), 24 sin and cos, 8 selections.
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[26], Real
     (&tau)[26]) noexcept;
@@ -274,7 +274,7 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 13197 operations. For inputs sampled at the stages include standing_quadruped_kernels.hpp and pass a
+/// 13121 operations. For inputs sampled at the stages include standing_quadruped_kernels.hpp and pass a
 /// function of the state instead of `input`.
 template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;

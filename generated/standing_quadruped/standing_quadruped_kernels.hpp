@@ -241,43 +241,49 @@ JOURDAIN_FUNCTION inline void sine_cosine4(const double& x0, double& s0, double&
 #endif
 
 // Numbers that are computed with at once, those of limbs that are alike: vectors where the compiler has them.
+#ifdef __GNUC__
+// One operation each, however many of them a function has.
+#define JOURDAIN_LANE JOURDAIN_FUNCTION __attribute__((always_inline))
+#else
+#define JOURDAIN_LANE JOURDAIN_FUNCTION
+#endif
 template <int N, class Real>
 struct Several;
 template <class Real>
 struct Several<2, Real> {
   Real a, b;
 
-  JOURDAIN_FUNCTION const Real& operator[](int lane) const noexcept { return lane == 0 ? a : b; }
-  JOURDAIN_FUNCTION friend Several operator+(const Several& x, const Several& y) noexcept { return {x.a + y.a, x.b + y.b}; }
-  JOURDAIN_FUNCTION friend Several operator+(const Several& x, const Real& y) noexcept { return {x.a + y, x.b + y}; }
-  JOURDAIN_FUNCTION friend Several operator+(const Real& x, const Several& y) noexcept { return {x + y.a, x + y.b}; }
-  JOURDAIN_FUNCTION friend Several operator-(const Several& x, const Several& y) noexcept { return {x.a - y.a, x.b - y.b}; }
-  JOURDAIN_FUNCTION friend Several operator-(const Several& x, const Real& y) noexcept { return {x.a - y, x.b - y}; }
-  JOURDAIN_FUNCTION friend Several operator-(const Real& x, const Several& y) noexcept { return {x - y.a, x - y.b}; }
-  JOURDAIN_FUNCTION friend Several operator*(const Several& x, const Several& y) noexcept { return {x.a * y.a, x.b * y.b}; }
-  JOURDAIN_FUNCTION friend Several operator*(const Several& x, const Real& y) noexcept { return {x.a * y, x.b * y}; }
-  JOURDAIN_FUNCTION friend Several operator*(const Real& x, const Several& y) noexcept { return {x * y.a, x * y.b}; }
-  JOURDAIN_FUNCTION friend Several operator/(const Several& x, const Several& y) noexcept { return {x.a / y.a, x.b / y.b}; }
-  JOURDAIN_FUNCTION friend Several operator/(const Several& x, const Real& y) noexcept { return {x.a / y, x.b / y}; }
-  JOURDAIN_FUNCTION friend Several operator/(const Real& x, const Several& y) noexcept { return {x / y.a, x / y.b}; }
+  JOURDAIN_LANE const Real& operator[](int lane) const noexcept { return lane == 0 ? a : b; }
+  JOURDAIN_LANE friend Several operator+(const Several& x, const Several& y) noexcept { return {x.a + y.a, x.b + y.b}; }
+  JOURDAIN_LANE friend Several operator+(const Several& x, const Real& y) noexcept { return {x.a + y, x.b + y}; }
+  JOURDAIN_LANE friend Several operator+(const Real& x, const Several& y) noexcept { return {x + y.a, x + y.b}; }
+  JOURDAIN_LANE friend Several operator-(const Several& x, const Several& y) noexcept { return {x.a - y.a, x.b - y.b}; }
+  JOURDAIN_LANE friend Several operator-(const Several& x, const Real& y) noexcept { return {x.a - y, x.b - y}; }
+  JOURDAIN_LANE friend Several operator-(const Real& x, const Several& y) noexcept { return {x - y.a, x - y.b}; }
+  JOURDAIN_LANE friend Several operator*(const Several& x, const Several& y) noexcept { return {x.a * y.a, x.b * y.b}; }
+  JOURDAIN_LANE friend Several operator*(const Several& x, const Real& y) noexcept { return {x.a * y, x.b * y}; }
+  JOURDAIN_LANE friend Several operator*(const Real& x, const Several& y) noexcept { return {x * y.a, x * y.b}; }
+  JOURDAIN_LANE friend Several operator/(const Several& x, const Several& y) noexcept { return {x.a / y.a, x.b / y.b}; }
+  JOURDAIN_LANE friend Several operator/(const Several& x, const Real& y) noexcept { return {x.a / y, x.b / y}; }
+  JOURDAIN_LANE friend Several operator/(const Real& x, const Several& y) noexcept { return {x / y.a, x / y.b}; }
 };
 template <class Real>
 struct Several<4, Real> {
   Real a, b, c, d;
 
-  JOURDAIN_FUNCTION const Real& operator[](int lane) const noexcept { return lane == 0 ? a : lane == 1 ? b : lane == 2 ? c : d; }
-  JOURDAIN_FUNCTION friend Several operator+(const Several& x, const Several& y) noexcept { return {x.a + y.a, x.b + y.b, x.c + y.c, x.d + y.d}; }
-  JOURDAIN_FUNCTION friend Several operator+(const Several& x, const Real& y) noexcept { return {x.a + y, x.b + y, x.c + y, x.d + y}; }
-  JOURDAIN_FUNCTION friend Several operator+(const Real& x, const Several& y) noexcept { return {x + y.a, x + y.b, x + y.c, x + y.d}; }
-  JOURDAIN_FUNCTION friend Several operator-(const Several& x, const Several& y) noexcept { return {x.a - y.a, x.b - y.b, x.c - y.c, x.d - y.d}; }
-  JOURDAIN_FUNCTION friend Several operator-(const Several& x, const Real& y) noexcept { return {x.a - y, x.b - y, x.c - y, x.d - y}; }
-  JOURDAIN_FUNCTION friend Several operator-(const Real& x, const Several& y) noexcept { return {x - y.a, x - y.b, x - y.c, x - y.d}; }
-  JOURDAIN_FUNCTION friend Several operator*(const Several& x, const Several& y) noexcept { return {x.a * y.a, x.b * y.b, x.c * y.c, x.d * y.d}; }
-  JOURDAIN_FUNCTION friend Several operator*(const Several& x, const Real& y) noexcept { return {x.a * y, x.b * y, x.c * y, x.d * y}; }
-  JOURDAIN_FUNCTION friend Several operator*(const Real& x, const Several& y) noexcept { return {x * y.a, x * y.b, x * y.c, x * y.d}; }
-  JOURDAIN_FUNCTION friend Several operator/(const Several& x, const Several& y) noexcept { return {x.a / y.a, x.b / y.b, x.c / y.c, x.d / y.d}; }
-  JOURDAIN_FUNCTION friend Several operator/(const Several& x, const Real& y) noexcept { return {x.a / y, x.b / y, x.c / y, x.d / y}; }
-  JOURDAIN_FUNCTION friend Several operator/(const Real& x, const Several& y) noexcept { return {x / y.a, x / y.b, x / y.c, x / y.d}; }
+  JOURDAIN_LANE const Real& operator[](int lane) const noexcept { return lane == 0 ? a : lane == 1 ? b : lane == 2 ? c : d; }
+  JOURDAIN_LANE friend Several operator+(const Several& x, const Several& y) noexcept { return {x.a + y.a, x.b + y.b, x.c + y.c, x.d + y.d}; }
+  JOURDAIN_LANE friend Several operator+(const Several& x, const Real& y) noexcept { return {x.a + y, x.b + y, x.c + y, x.d + y}; }
+  JOURDAIN_LANE friend Several operator+(const Real& x, const Several& y) noexcept { return {x + y.a, x + y.b, x + y.c, x + y.d}; }
+  JOURDAIN_LANE friend Several operator-(const Several& x, const Several& y) noexcept { return {x.a - y.a, x.b - y.b, x.c - y.c, x.d - y.d}; }
+  JOURDAIN_LANE friend Several operator-(const Several& x, const Real& y) noexcept { return {x.a - y, x.b - y, x.c - y, x.d - y}; }
+  JOURDAIN_LANE friend Several operator-(const Real& x, const Several& y) noexcept { return {x - y.a, x - y.b, x - y.c, x - y.d}; }
+  JOURDAIN_LANE friend Several operator*(const Several& x, const Several& y) noexcept { return {x.a * y.a, x.b * y.b, x.c * y.c, x.d * y.d}; }
+  JOURDAIN_LANE friend Several operator*(const Several& x, const Real& y) noexcept { return {x.a * y, x.b * y, x.c * y, x.d * y}; }
+  JOURDAIN_LANE friend Several operator*(const Real& x, const Several& y) noexcept { return {x * y.a, x * y.b, x * y.c, x * y.d}; }
+  JOURDAIN_LANE friend Several operator/(const Several& x, const Several& y) noexcept { return {x.a / y.a, x.b / y.b, x.c / y.c, x.d / y.d}; }
+  JOURDAIN_LANE friend Several operator/(const Several& x, const Real& y) noexcept { return {x.a / y, x.b / y, x.c / y, x.d / y}; }
+  JOURDAIN_LANE friend Several operator/(const Real& x, const Several& y) noexcept { return {x / y.a, x / y.b, x / y.c, x / y.d}; }
 };
 template <int N, class Real>
 struct LanesOf {
@@ -350,6 +356,7 @@ struct LanesOf<4, float> {
   typedef float Type __attribute__((vector_size(16)));
 };
 #endif
+#undef JOURDAIN_LANE
 template <int N, class Real>
 using Lanes = typename LanesOf<N, Real>::Type;
 
@@ -460,17 +467,17 @@ void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[19
   const Real half_0_0 = state.z[3] * Real(0.5);
   const Real half_0_1 = Real(0.5) * state.z[4];
   const Real half_0_2 = Real(0.5) * state.z[5];
-  const Real qdot_0_0 = half_0_0 * state.y[4] + half_0_1 * state.y[5] + half_0_2 * state.y[6];
-  const Real qdot_0_1 = half_0_0 * state.y[3] + half_0_2 * state.y[5] - half_0_1 * state.y[6];
-  const Real qdot_0_2 = half_0_1 * state.y[3] - half_0_2 * state.y[4] + half_0_0 * state.y[6];
-  const Real qdot_0_3 = half_0_2 * state.y[3] + half_0_1 * state.y[4] - half_0_0 * state.y[5];
+  const Real qdot_0_0 = half_0_2 * state.y[6] + (half_0_0 * state.y[4] + half_0_1 * state.y[5]);
+  const Real qdot_0_1 = half_0_1 * state.y[6] - (half_0_0 * state.y[3] + half_0_2 * state.y[5]);
+  const Real qdot_0_2 = half_0_0 * state.y[6] + (half_0_1 * state.y[3] - half_0_2 * state.y[4]);
+  const Real qdot_0_3 = half_0_0 * state.y[5] - (half_0_2 * state.y[3] + half_0_1 * state.y[4]);
   ydot[0] = state.z[0];
   ydot[1] = state.z[1];
   ydot[2] = state.z[2];
   ydot[3] = -qdot_0_0;
-  ydot[4] = qdot_0_1;
+  ydot[4] = -qdot_0_1;
   ydot[5] = qdot_0_2;
-  ydot[6] = qdot_0_3;
+  ydot[6] = -qdot_0_3;
   ydot[7] = state.z[6];
   ydot[8] = state.z[7];
   ydot[9] = state.z[8];
@@ -506,7 +513,7 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[2
   const Real q001 = q0d1 * state.y[3];
   const Real q002 = q0d2 * state.y[3];
   const Real q003 = q0d3 * state.y[3];
-  const Real q0r0_x = q022 + q033 - Real(1.0);
+  const Real q0r0_x = q033 + (q022 - Real(1.0));
   const Real q0r0_y = q012 - q003;
   const Real q0r0_z = q013 + q002;
   const Real q0r1_x = q012 + q003;
@@ -553,15 +560,15 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[2
   const detail::Lanes<4, Real> h2_y = h3b_y + h2b_y;
   const detail::Lanes<4, Real> J2 = E3 + (detail::Lanes<4, Real>{Real(0.008967), Real(0.008967),
       Real(0.009408), Real(0.009408)} + D3);
-  const detail::Lanes<4, Real> S2_xx = Real(2.0) * (r3_x * h3b_x) + (s3 * S3b_t - (detail::Lanes<4,
+  const detail::Lanes<4, Real> S2_xx = h3b_x * (Real(2.0) * r3_x) + (s3 * S3b_t - (detail::Lanes<4,
       Real>{Real(0.010542), Real(0.010542), Real(0.011448), Real(0.011448)} - s2s * S2b_t));
   const detail::Lanes<4, Real> S2_xz = S3b_xz - S2b_xz;
   const detail::Lanes<4, Real> S2_yz = S3b_yz + S2b_yz;
   const detail::Lanes<4, Real> S2c_xz = detail::Lanes<4, Real>{Real(0.0147372), Real(0.0147372),
       Real(-0.014855), Real(-0.014855)} - S2_yz;
   const detail::Lanes<4, Real> S2c_yy = Real(0.00025) - S2_xx;
-  const detail::Lanes<4, Real> S2c_yz = detail::Lanes<4, Real>{Real(0.19), Real(0.19), Real(-0.19),
-      Real(-0.19)} * h2_x + (S2b_xy - (Real(0.21) * (s2s * h3b_x) + (S3b_xy - r3_x * h3b_y)));
+  const detail::Lanes<4, Real> S2c_yz = r3_x * h3b_y - h3b_x * (s2s * Real(0.21)) + (detail::Lanes<4,
+      Real>{Real(0.19), Real(0.19), Real(-0.19), Real(-0.19)} * h2_x - (S3b_xy - S2b_xy));
   const detail::Lanes<4, Real> S1b_zz = detail::Lanes<4, Real>{Real(0.00539936), Real(0.00539936),
       Real(0.0054378000000000004), Real(0.0054378000000000004)} + S2c_yy;
   const detail::Lanes<4, Real> S1b_d = detail::Lanes<4, Real>{Real(0.00539936), Real(0.00539936),
@@ -572,40 +579,38 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[2
   const Real t286 = -s10;
   const detail::Lanes<4, Real> s1s_2 = {s1, t285, s7, t286};
   const detail::Lanes<4, Real> S1b_t = Real(2.0) * t277 + s1s_2 * S1b_d;
-  const detail::Lanes<4, Real> s1s = {s1, s4, s7, s10};
-  const detail::Lanes<4, Real> S1b_xx = detail::Lanes<4, Real>{Real(0.00539936), Real(-0.00539936),
-      Real(0.0054378000000000004), Real(-0.0054378000000000004)} - s1s * S1b_t;
-  const detail::Lanes<4, Real> t305 = c1s * S1b_t;
-  const Real t309 = -c4;
-  const Real t310 = -c7;
-  const Real t311 = -c10;
-  const Real t316 = -s7;
-  const detail::Lanes<4, Real> S1b_xz = detail::Lanes<4, Real>{c1, t309, t310, t311} * S2c_xz -
-      detail::Lanes<4, Real>{s1, s4, t316, s10} * S2c_yz;
-  const detail::Lanes<4, Real> S1b_yz = detail::Lanes<4, Real>{c1, c4, t310, t311} * S2c_yz + detail::Lanes<4,
-      Real>{s1, t285, t316, s10} * S2c_xz;
+  const detail::Lanes<4, Real> S1b_xx = detail::Lanes<4, Real>{Real(0.00539936), Real(0.00539936),
+      Real(0.0054378000000000004), Real(0.0054378000000000004)} - s1s_2 * S1b_t;
+  const Real t307 = -c4;
+  const Real t309 = -c10;
+  const detail::Lanes<4, Real> S1b_xz = detail::Lanes<4, Real>{c1, t307, -c7, t309} * S2c_xz -
+      detail::Lanes<4, Real>{s1, s4, -s7, s10} * S2c_yz;
+  const detail::Lanes<4, Real> S1b_yz = c1s * S2c_yz + s1s_2 * S2c_xz;
   const detail::Lanes<4, Real> h1b_x = c1s * detail::Lanes<4, Real>{Real(0.07788), Real(0.07788),
       Real(0.0785), Real(0.0785)} - s1s_2 * h2_x;
+  const detail::Lanes<4, Real> s1s = {s1, s4, s7, s10};
   const detail::Lanes<4, Real> h1b_y = s1s * detail::Lanes<4, Real>{Real(0.07788), Real(0.07788),
-      Real(0.0785), Real(0.0785)} + detail::Lanes<4, Real>{c1, t309, c7, t311} * h2_x;
-  const Real t363 = h2_y[1] + h2_y[0];
-  const Real t364 = h2_y[3] + h2_y[2];
-  const Real h1c_x = t363 + t364 + Real(0.0038000000000000035);
-  const Real h1c_y = h1b_x[0] - (h1b_x[1] + (h1b_x[3] - h1b_x[2]));
-  const Real h1c_z = h1b_y[0] - (h1b_y[1] + (h1b_y[3] - h1b_y[2]));
-  const Real S1c_xx = (t363 - t364) * Real(0.38) - (S2_xx[0] + (J2[0] + (S2_xx[1] + (J2[1] + (S2_xx[2] +
-      (J2[2] + (J2[3] + S2_xx[3]))))))) - Real(0.22637000000000002);
-  const Real S1c_xy = (h2_y[0] - (h2_y[1] + (h2_y[3] - h2_y[2]))) * Real(0.05) - (S1b_xz[3] - (S1b_xz[2] -
-      (S1b_xz[1] + S1b_xz[0])));
-  const Real S1c_xz = S1b_yz[0] + (S1b_yz[1] - (S1b_yz[3] + S1b_yz[2]));
-  const Real S1c_yy = (h1b_x[0] + (h1b_x[1] + (h1b_x[3] + h1b_x[2]))) * Real(0.1) + (S1b_xx[2] + (S1b_xx[0] -
-      S1b_xx[1]) - S1b_xx[3]) + Real(0.02215);
-  const Real S1c_yz = Real(0.05) * (h1b_y[0] + (h1b_y[1] + (h1b_y[3] + h1b_y[2]))) - (t305[3] - (S2_xz[3] +
-      (t305[2] - (S2_xz[2] + (t305[1] - (S2_xz[1] - (S2_xz[0] - t305[0])))))));
-  const Real S1c_zz = S1b_xx[0] - (S1b_zz[0] + (S1b_xx[1] + (S1b_zz[1] - (S1b_xx[2] - (S1b_zz[2] + (S1b_zz[3]
-      + S1b_xx[3])))))) - Real(0.0024000000000000002);
-  const Real S0b_zz = S1c_xx - S1c_yy;
-  const Real Jx0 = S1c_yy - S1c_zz;
+      Real(0.0785), Real(0.0785)} + detail::Lanes<4, Real>{c1, t307, c7, t309} * h2_x;
+  const Real t361 = h2_y[1] + h2_y[0];
+  const Real t362 = h2_y[3] + h2_y[2];
+  const Real h1c_x = t362 + (t361 + Real(0.0038000000000000035));
+  const Real h1c_y = h1b_x[3] - h1b_x[2] + (h1b_x[1] - h1b_x[0]);
+  const Real h1c_z = h1b_y[3] - h1b_y[2] + (h1b_y[1] - h1b_y[0]);
+  const detail::Lanes<4, Real> t375 = J2 + S2_xx;
+  const Real S1c_xx = t375[2] + t375[3] - ((t361 - t362) * Real(0.38) - Real(0.22637000000000002) - (t375[0] +
+      t375[1]));
+  const Real S1c_xy = S1b_xz[2] - S1b_xz[1] - (S1b_xz[0] + (S1b_xz[3] + (h2_y[3] - h2_y[2] + (h2_y[1] -
+      h2_y[0])) * Real(0.05)));
+  const Real S1c_xz = S1b_yz[3] + S1b_yz[2] + (S1b_yz[1] + S1b_yz[0]);
+  const Real S1c_yy = S1b_xx[2] + S1b_xx[1] + (S1b_xx[0] + (S1b_xx[3] + ((h1b_x[3] + h1b_x[2] + (h1b_x[1] +
+      h1b_x[0])) * Real(0.1) + Real(0.02215))));
+  const detail::Lanes<4, Real> t412 = S2_xz - c1s * S1b_t;
+  const Real S1c_yz = t412[1] - t412[2] + (t412[3] + (Real(0.05) * (h1b_y[3] + h1b_y[2] + (h1b_y[1] +
+      h1b_y[0])) - t412[0]));
+  const detail::Lanes<4, Real> t420 = S1b_zz - S1b_xx;
+  const Real S1c_zz = t420[1] + t420[2] + (t420[3] + (Real(0.0024000000000000002) + t420[0]));
+  const Real S0b_zz = S1c_xx + S1c_yy;
+  const Real Jx0 = S1c_yy + S1c_zz;
   const Real Jy0 = S1c_xx + S1c_zz;
   const detail::Lanes<4, Real> p_6_1l_x = h1b_x * Real(0.05);
   const detail::Lanes<4, Real> p_6_1n_x = S1b_zz + p_6_1l_x;
@@ -621,7 +626,7 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[2
   const detail::Lanes<4, Real> p_7_1l_x = Real(0.05) * p_7_2F_y;
   const detail::Lanes<4, Real> p_7_1l_z = h2_x * Real(0.05);
   const detail::Lanes<4, Real> p_7_1n_x = S2_yz + p_7_1l_x;
-  const detail::Lanes<4, Real> p_7_1n_z = p_7_1l_z + (t277 - s1s_2 * p_7_2n_x);
+  const detail::Lanes<4, Real> p_7_1n_z = s1s_2 * p_7_2n_x - (t277 + p_7_1l_z);
   const detail::Lanes<4, Real> p_7_0f_x = q0r0_z * p_7_2F_y - (q0r0_x * h2_x + q0r0_y * p_7_2F_x);
   const detail::Lanes<4, Real> p_7_0f_y = q0r1_z * p_7_2F_y + (q0r1_x * h2_x + q0r1_y * p_7_2F_x);
   const detail::Lanes<4, Real> p_7_0f_z = q0r2_z * p_7_2F_y - (q0r2_x * h2_x - q0r2_y * p_7_2F_x);
@@ -634,25 +639,25 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[2
   const detail::Lanes<4, Real> p_8_1l_x = Real(0.05) * p_8_2F_y;
   const detail::Lanes<4, Real> p_8_1l_z = h3b_x * Real(0.05);
   const detail::Lanes<4, Real> p_8_1n_x = S3b_yz + p_8_1l_x;
-  const detail::Lanes<4, Real> p_8_1n_z = p_8_1l_z + (c1s * S3b_xz - s1s_2 * p_8_2n_x);
+  const detail::Lanes<4, Real> p_8_1n_z = s1s_2 * p_8_2n_x - (c1s * S3b_xz + p_8_1l_z);
   const detail::Lanes<4, Real> p_8_0f_x = q0r0_z * p_8_2F_y - (q0r0_x * h3b_x + q0r0_y * p_8_2F_x);
   const detail::Lanes<4, Real> p_8_0f_y = q0r1_z * p_8_2F_y + (q0r1_x * h3b_x + q0r1_y * p_8_2F_x);
   const detail::Lanes<4, Real> p_8_0f_z = q0r2_z * p_8_2F_y - (q0r2_x * h3b_x - q0r2_y * p_8_2F_x);
   const Real pfree_0_0f_x = q0r0_y * h1c_z - q0r0_z * h1c_y;
   const Real pfree_0_0f_y = q0r1_y * h1c_z + q0r1_z * h1c_y;
   const Real pfree_0_0f_z = q0r2_y * h1c_z + q0r2_z * h1c_y;
-  const Real pfree_0_1f_x = q0r0_x * h1c_z - q0r0_z * h1c_x;
-  const Real pfree_0_1f_y = q0r1_x * h1c_z + q0r1_z * h1c_x;
-  const Real pfree_0_1f_z = q0r2_x * h1c_z - q0r2_z * h1c_x;
-  const Real pfree_0_2f_x = q0r0_x * h1c_y - q0r0_y * h1c_x;
-  const Real pfree_0_2f_y = q0r1_x * h1c_y - q0r1_y * h1c_x;
-  const Real pfree_0_2f_z = q0r2_x * h1c_y + q0r2_y * h1c_x;
+  const Real pfree_0_1f_x = q0r0_x * h1c_z + q0r0_z * h1c_x;
+  const Real pfree_0_1f_y = q0r1_x * h1c_z - q0r1_z * h1c_x;
+  const Real pfree_0_1f_z = q0r2_x * h1c_z + q0r2_z * h1c_x;
+  const Real pfree_0_2f_x = q0r0_x * h1c_y + q0r0_y * h1c_x;
+  const Real pfree_0_2f_y = q0r1_x * h1c_y + q0r1_y * h1c_x;
+  const Real pfree_0_2f_z = q0r2_x * h1c_y - q0r2_y * h1c_x;
   M[0][0] = model.front_abduction1_m;
   M[0][1] = M[1][0] = Real(0.0);
   M[0][2] = M[2][0] = Real(0.0);
-  M[0][3] = M[3][0] = -pfree_0_0f_x;
-  M[0][4] = M[4][0] = -pfree_0_1f_x;
-  M[0][5] = M[5][0] = pfree_0_2f_x;
+  M[0][3] = M[3][0] = pfree_0_0f_x;
+  M[0][4] = M[4][0] = pfree_0_1f_x;
+  M[0][5] = M[5][0] = -pfree_0_2f_x;
   M[0][6] = M[6][0] = -p_6_0f_x[0];
   M[0][7] = M[7][0] = p_7_0f_x[0];
   M[0][8] = M[8][0] = p_8_0f_x[0];
@@ -675,9 +680,9 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[2
   M[0][25] = M[25][0] = Real(0.0);
   M[1][1] = model.front_abduction1_m;
   M[1][2] = M[2][1] = Real(0.0);
-  M[1][3] = M[3][1] = pfree_0_0f_y;
-  M[1][4] = M[4][1] = pfree_0_1f_y;
-  M[1][5] = M[5][1] = -pfree_0_2f_y;
+  M[1][3] = M[3][1] = -pfree_0_0f_y;
+  M[1][4] = M[4][1] = -pfree_0_1f_y;
+  M[1][5] = M[5][1] = pfree_0_2f_y;
   M[1][6] = M[6][1] = p_6_0f_y[0];
   M[1][7] = M[7][1] = p_7_0f_y[0];
   M[1][8] = M[8][1] = p_8_0f_y[0];
@@ -699,9 +704,9 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[2
   M[1][24] = M[24][1] = Real(0.0);
   M[1][25] = M[25][1] = Real(0.0);
   M[2][2] = model.front_abduction1_m;
-  M[2][3] = M[3][2] = -pfree_0_0f_z;
-  M[2][4] = M[4][2] = pfree_0_1f_z;
-  M[2][5] = M[5][2] = -pfree_0_2f_z;
+  M[2][3] = M[3][2] = pfree_0_0f_z;
+  M[2][4] = M[4][2] = -pfree_0_1f_z;
+  M[2][5] = M[5][2] = pfree_0_2f_z;
   M[2][6] = M[6][2] = -p_6_0f_z[0];
   M[2][7] = M[7][2] = -p_7_0f_z[0];
   M[2][8] = M[8][2] = -p_8_0f_z[0];
@@ -745,7 +750,7 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[2
   M[3][23] = M[23][3] = Real(0.0);
   M[3][24] = M[24][3] = Real(0.0);
   M[3][25] = M[25][3] = Real(0.0);
-  M[4][4] = -Jy0;
+  M[4][4] = Jy0;
   M[4][5] = M[5][4] = -S1c_yz;
   M[4][6] = M[6][4] = -S1b_xz[0];
   M[4][7] = M[7][4] = p_7_2N_x[0];
@@ -767,19 +772,19 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[2
   M[4][23] = M[23][4] = Real(0.0);
   M[4][24] = M[24][4] = Real(0.0);
   M[4][25] = M[25][4] = Real(0.0);
-  M[5][5] = -S0b_zz;
+  M[5][5] = S0b_zz;
   M[5][6] = M[6][5] = -S1b_yz[0];
-  M[5][7] = M[7][5] = -p_7_1n_z[0];
-  M[5][8] = M[8][5] = -p_8_1n_z[0];
+  M[5][7] = M[7][5] = p_7_1n_z[0];
+  M[5][8] = M[8][5] = p_8_1n_z[0];
   M[5][9] = M[9][5] = -S1b_yz[1];
-  M[5][10] = M[10][5] = p_7_1n_z[1];
-  M[5][11] = M[11][5] = p_8_1n_z[1];
-  M[5][12] = M[12][5] = S1b_yz[2];
-  M[5][13] = M[13][5] = -p_7_1n_z[2];
-  M[5][14] = M[14][5] = -p_8_1n_z[2];
-  M[5][15] = M[15][5] = S1b_yz[3];
-  M[5][16] = M[16][5] = p_7_1n_z[3];
-  M[5][17] = M[17][5] = p_8_1n_z[3];
+  M[5][10] = M[10][5] = -p_7_1n_z[1];
+  M[5][11] = M[11][5] = -p_8_1n_z[1];
+  M[5][12] = M[12][5] = -S1b_yz[2];
+  M[5][13] = M[13][5] = p_7_1n_z[2];
+  M[5][14] = M[14][5] = p_8_1n_z[2];
+  M[5][15] = M[15][5] = -S1b_yz[3];
+  M[5][16] = M[16][5] = -p_7_1n_z[3];
+  M[5][17] = M[17][5] = -p_8_1n_z[3];
   M[5][18] = M[18][5] = Real(0.0);
   M[5][19] = M[19][5] = Real(0.0);
   M[5][20] = M[20][5] = Real(0.0);
@@ -1021,7 +1026,7 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[26]) noexcept
   const Real q001 = q0d1 * state.y[3];
   const Real q002 = q0d2 * state.y[3];
   const Real q003 = q0d3 * state.y[3];
-  const Real q0r0_x = q022 + q033 - Real(1.0);
+  const Real q0r0_x = q033 + (q022 - Real(1.0));
   const Real q0r0_y = q012 - q003;
   const Real q0r0_z = q013 + q002;
   const Real q0r1_x = q012 + q003;
@@ -1070,82 +1075,83 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[26]) noexcept
   const detail::Lanes<4, Real> J2 = detail::Lanes<4, Real>{Real(0.010801999999999999),
       Real(0.010801999999999999), Real(0.011708), Real(0.011708)} + t37s * detail::Lanes<4,
       Real>{Real(0.00567), Real(0.00567), Real(0.00672), Real(0.00672)};
-  const detail::Lanes<4, Real> S2_xx = s2s * S2b_t - (detail::Lanes<4, Real>{Real(0.008712), Real(0.008712),
-      Real(0.009153), Real(0.009153)} + (S3b_xx - Real(2.0) * (r3_x * h3b_x)));
-  const detail::Lanes<4, Real> S2_xy = S2b_xy - (r3_y * h3b_x + (S3b_xy - r3_x * h3b_y));
+  const detail::Lanes<4, Real> S2_xx = S3b_xx - (h3b_x * (Real(2.0) * r3_x) - (detail::Lanes<4,
+      Real>{Real(0.008712), Real(0.008712), Real(0.009153), Real(0.009153)} - s2s * S2b_t));
+  const detail::Lanes<4, Real> S2_xy = S3b_xy - S2b_xy - (r3_x * h3b_y - r3_y * h3b_x);
   const detail::Lanes<4, Real> S2_xz = S3b_xz - S2b_xz;
   const detail::Lanes<4, Real> S2_yz = S3b_yz + S2b_yz;
-  const detail::Lanes<4, Real> S2_yy = J2 + S2_xx;
+  const detail::Lanes<4, Real> S2_yy = J2 - S2_xx;
   const detail::Lanes<4, Real> S2c_xz = detail::Lanes<4, Real>{Real(0.0147372), Real(0.0147372),
       Real(-0.014855), Real(-0.014855)} - S2_yz;
-  const detail::Lanes<4, Real> S2c_yy = Real(0.00025) - S2_xx;
-  const detail::Lanes<4, Real> S2c_yz = S2_xy + detail::Lanes<4, Real>{Real(0.19), Real(0.19), Real(-0.19),
+  const detail::Lanes<4, Real> S2c_yy = Real(0.00025) + S2_xx;
+  const detail::Lanes<4, Real> S2c_yz = S2_xy - detail::Lanes<4, Real>{Real(0.19), Real(0.19), Real(-0.19),
       Real(-0.19)} * h2_x;
   const detail::Lanes<4, Real> S1b_d = detail::Lanes<4, Real>{Real(0.00539936), Real(0.00539936),
       Real(0.0054378000000000004), Real(0.0054378000000000004)} - S2c_yy;
   const Real t287 = -s4;
   const Real t288 = -s10;
   const detail::Lanes<4, Real> c1s = {c1, c4, c7, c10};
-  const detail::Lanes<4, Real> s1s_2 = {s1, t287, s7, t288};
-  const detail::Lanes<4, Real> S1b_t = Real(2.0) * (c1s * S2_xz) + s1s_2 * S1b_d;
-  const detail::Lanes<4, Real> t297 = s1s_2 * S1b_t;
+  const detail::Lanes<4, Real> s1s_3 = {s1, t287, s7, t288};
+  const detail::Lanes<4, Real> S1b_t = S2_xz * (Real(2.0) * c1s) + s1s_3 * S1b_d;
+  const detail::Lanes<4, Real> t297 = s1s_3 * S1b_t;
   const detail::Lanes<4, Real> S1b_xx = detail::Lanes<4, Real>{Real(0.00539936), Real(0.00539936),
       Real(0.0054378000000000004), Real(0.0054378000000000004)} - t297;
   const detail::Lanes<4, Real> S1b_xy = S2_xz - c1s * S1b_t;
   const Real t313 = -c4;
+  const Real t314 = -c7;
   const Real t315 = -c10;
-  const detail::Lanes<4, Real> S1b_xz = detail::Lanes<4, Real>{c1, t313, -c7, t315} * S2c_xz -
-      detail::Lanes<4, Real>{s1, s4, -s7, s10} * S2c_yz;
-  const detail::Lanes<4, Real> S1b_yz = c1s * S2c_yz + s1s_2 * S2c_xz;
+  const Real t320 = -s7;
+  const detail::Lanes<4, Real> s1s_2 = {s1, s4, t320, s10};
+  const detail::Lanes<4, Real> S1b_xz = detail::Lanes<4, Real>{c1, t313, t314, t315} * S2c_xz + s1s_2 *
+      S2c_yz;
+  const detail::Lanes<4, Real> S1b_yz = c1s * S2c_yz - s1s_3 * S2c_xz;
   const detail::Lanes<4, Real> S1b_yy = S2c_yy + t297;
   const detail::Lanes<4, Real> h1b_x = c1s * detail::Lanes<4, Real>{Real(0.07788), Real(0.07788),
-      Real(0.0785), Real(0.0785)} - s1s_2 * h2_x;
+      Real(0.0785), Real(0.0785)} - s1s_3 * h2_x;
   const detail::Lanes<4, Real> s1s = {s1, s4, s7, s10};
-  const detail::Lanes<4, Real> c1s_3 = {c1, t313, c7, t315};
+  const detail::Lanes<4, Real> c1s_2 = {c1, t313, c7, t315};
   const detail::Lanes<4, Real> h1b_y = s1s * detail::Lanes<4, Real>{Real(0.07788), Real(0.07788),
-      Real(0.0785), Real(0.0785)} + c1s_3 * h2_x;
+      Real(0.0785), Real(0.0785)} + c1s_2 * h2_x;
   const Real t371 = h2_y[1] + h2_y[0];
   const Real t372 = h2_y[3] + h2_y[2];
-  const Real h1c_x = t371 + t372 + Real(0.0038000000000000035);
-  const Real h1c_y = h1b_x[0] - (h1b_x[1] + (h1b_x[3] - h1b_x[2]));
-  const Real h1c_z = h1b_y[0] - (h1b_y[1] + (h1b_y[3] - h1b_y[2]));
-  const Real S1c_xx = (t371 - t372) * Real(0.38) - (S2_yy[0] + (S2_yy[1] + (S2_yy[3] + S2_yy[2]))) -
-      Real(0.22637000000000002);
-  const Real S1c_xy = (h2_y[0] - (h2_y[1] + (h2_y[3] - h2_y[2]))) * Real(0.05) - (S1b_xz[3] - (S1b_xz[2] -
-      (S1b_xz[1] + S1b_xz[0])));
-  const Real S1c_xz = S1b_yz[0] + (S1b_yz[1] + (S1b_yz[3] + S1b_yz[2]));
-  const Real S1c_yy = (h1b_x[0] + (h1b_x[1] + (h1b_x[3] + h1b_x[2]))) * Real(0.1) + (S1b_xx[3] + (S1b_xx[2] +
-      (S1b_xx[1] + S1b_xx[0]))) + Real(0.02215);
-  const Real S1c_yz = Real(0.05) * (h1b_y[0] + (h1b_y[1] + (h1b_y[3] + h1b_y[2]))) + (S1b_xy[3] - (S1b_xy[2] -
-      (S1b_xy[1] - S1b_xy[0])));
-  const Real S1c_zz = S1b_yy[0] + (S1b_yy[1] + (S1b_yy[3] + S1b_yy[2])) + Real(0.0024000000000000002);
+  const Real h1c_x = t372 + (t371 + Real(0.0038000000000000035));
+  const Real h1c_y = h1b_x[3] - h1b_x[2] + (h1b_x[1] - h1b_x[0]);
+  const Real h1c_z = h1b_y[3] - h1b_y[2] + (h1b_y[1] - h1b_y[0]);
+  const Real S1c_xx = S2_yy[0] - (t371 - t372) * Real(0.38) + (S2_yy[3] + Real(0.22637000000000002) +
+      (S2_yy[2] + S2_yy[1]));
+  const Real S1c_xy = S1b_xz[2] - S1b_xz[1] - (S1b_xz[0] + (S1b_xz[3] + (h2_y[3] - h2_y[2] + (h2_y[1] -
+      h2_y[0])) * Real(0.05)));
+  const Real S1c_xz = S1b_yz[3] + S1b_yz[2] + (S1b_yz[1] + S1b_yz[0]);
+  const Real S1c_yy = S1b_xx[2] + S1b_xx[1] + (S1b_xx[0] + (S1b_xx[3] + ((h1b_x[3] + h1b_x[2] + (h1b_x[1] +
+      h1b_x[0])) * Real(0.1) + Real(0.02215))));
+  const Real S1c_yz = S1b_xy[2] - S1b_xy[1] + (S1b_xy[0] - (S1b_xy[3] + Real(0.05) * (h1b_y[3] + h1b_y[2] +
+      (h1b_y[1] + h1b_y[0]))));
+  const Real S1c_zz = S1b_yy[2] + S1b_yy[1] + (S1b_yy[0] + (S1b_yy[3] + Real(0.0024000000000000002)));
   const detail::Lanes<4, Real> g9 = {state.z[6], state.z[9], state.z[12], state.z[15]};
   const detail::Lanes<4, Real> w1_z = state.z[3] + g9;
-  const detail::Lanes<4, Real> w2pp_x = c1s_3 * state.z[4] + s1s_2 * state.z[5];
+  const detail::Lanes<4, Real> w2pp_x = c1s_2 * state.z[4] + s1s_3 * state.z[5];
   const detail::Lanes<4, Real> w2pp_y = s1s * state.z[4] - c1s * state.z[5];
   const Real t464 = -state.z[10];
   const Real t467 = -state.z[16];
   const detail::Lanes<4, Real> g12 = {state.z[7], t464, state.z[13], t467};
   const detail::Lanes<4, Real> w2_z = w2pp_x + g12;
-  const Real kSu0_x = S1c_xz * state.z[5] - (S1c_xx * state.z[3] + S1c_xy * state.z[4]);
-  const Real kSu0_y = S1c_yz * state.z[5] - (S1c_xy * state.z[3] - S1c_yy * state.z[4]);
-  const Real kSu0_z = S1c_zz * state.z[5] + (S1c_xz * state.z[3] + S1c_yz * state.z[4]);
-  const Real kuh0 = h1c_z * state.z[5] - (h1c_x * state.z[3] - h1c_y * state.z[4]);
+  const Real kSu0_x = S1c_xy * state.z[4] - (S1c_xx * state.z[3] - S1c_xz * state.z[5]);
+  const Real kSu0_y = S1c_yz * state.z[5] + (S1c_xy * state.z[3] - S1c_yy * state.z[4]);
+  const Real kSu0_z = S1c_zz * state.z[5] - (S1c_xz * state.z[3] + S1c_yz * state.z[4]);
+  const Real kuh0 = h1c_z * state.z[5] + (h1c_x * state.z[3] + h1c_y * state.z[4]);
   const Real kL0w00 = state.z[3] * state.z[3];
   const Real kL0w22 = state.z[5] * state.z[5];
   const Real kL0U1_y = kL0w00 + kL0w22;
   const Real kuw0 = state.z[4] * state.z[4] + kL0U1_y;
-  const Real kL0w01 = state.z[3] * state.z[4];
-  const Real kL0w12 = state.z[4] * state.z[5];
-  const Real ka1o_x = Real(0.05) * kL0w01;
+  const Real ka1o_x = state.z[4] * (Real(0.05) * state.z[3]);
   const Real ka1o_y = Real(0.05) * kL0U1_y;
-  const Real ka1o_z = Real(0.05) * kL0w12;
+  const Real ka1o_z = state.z[5] * (Real(0.05) * state.z[4]);
   const Real t518 = -state.z[4];
   const Real t523 = -state.z[5];
   const detail::Lanes<4, Real> kKx1 = S1b_xy * detail::Lanes<4, Real>{state.z[5], t523, t523, t523} - (S1b_xz
       * state.z[3] + S1b_xx * detail::Lanes<4, Real>{state.z[4], state.z[4], t518, state.z[4]});
   const detail::Lanes<4, Real> g10 = {state.z[4], t518, state.z[4], t518};
-  const detail::Lanes<4, Real> kKy1 = S1b_yy * state.z[5] + (S1b_yz * state.z[3] - S1b_xy * g10);
+  const detail::Lanes<4, Real> kKy1 = S1b_yy * state.z[5] - (S1b_yz * state.z[3] + S1b_xy * g10);
   const detail::Lanes<4, Real> z2_1 = Real(2.0) * g9;
   const detail::Lanes<4, Real> zz_1 = g9 * g9;
   const detail::Lanes<4, Real> zw_1 = g9 * (state.z[3] + w1_z);
@@ -1154,20 +1160,18 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[26]) noexcept
   const detail::Lanes<4, Real> kdf1_x = h1b_x * zw_1;
   const detail::Lanes<4, Real> kdf1_y = h1b_y * zw_1;
   const detail::Lanes<4, Real> kdf1_z = z2_1 * kax1;
-  const detail::Lanes<4, Real> t614 = S1b_yz * zz_1;
-  const detail::Lanes<4, Real> t618 = kKy1 * z2_1;
-  const detail::Lanes<4, Real> t622 = S1b_xz * zz_1;
-  const detail::Lanes<4, Real> t626 = kKx1 * z2_1;
   const detail::Lanes<4, Real> kal2p_x = g9 * w2pp_y;
   const detail::Lanes<4, Real> kal2p_y = g9 * w2pp_x;
   const Real kL1w00 = w2pp_x[0] * w2pp_x[0];
   const detail::Lanes<4, Real> kL1w11 = w2pp_y * w2pp_y;
   const detail::Lanes<4, Real> kL1w12 = w1_z * w2pp_y;
   const detail::Lanes<4, Real> kL1U1_z = kal2p_x - kL1w12;
+  const Real kL1U2_z = kL1w00 + kL1w11[0];
   const detail::Lanes<4, Real> ka2o_y = detail::Lanes<4, Real>{Real(0.19), Real(0.19), Real(-0.19),
-      Real(-0.19)} * kL1U1_z + (c1s_3 * ka1o_z + s1s_2 * ka1o_y);
-  const detail::Lanes<4, Real> kKx2 = S2_xz * w2pp_x + (S2_xx * w2pp_y + S2_xy * w1_z);
-  const detail::Lanes<4, Real> kKy2 = S2_yy * w1_z - (S2_xy * w2pp_y + S2_yz * w2pp_x);
+      Real(-0.19)} * kL1U1_z + (c1s_2 * ka1o_z + s1s_3 * ka1o_y);
+  const Real t672 = Real(0.19) * kL1U2_z;
+  const detail::Lanes<4, Real> kKx2 = S2_xy * w1_z + (S2_xx * w2pp_y - S2_xz * w2pp_x);
+  const detail::Lanes<4, Real> kKy2 = S2_yy * w1_z + (S2_xy * w2pp_y - S2_yz * w2pp_x);
   const detail::Lanes<4, Real> g11 = {state.z[7], state.z[10], state.z[13], state.z[16]};
   const detail::Lanes<4, Real> z2_2 = detail::Lanes<4, Real>{Real(2.0), Real(2.0), Real(2.0), Real(-2.0)} *
       g11;
@@ -1178,100 +1182,94 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[26]) noexcept
   const detail::Lanes<4, Real> kdf2_x = h2_x * zw_2;
   const detail::Lanes<4, Real> kdf2_y = h2_y * zw_2;
   const detail::Lanes<4, Real> kdf2_z = z2_2 * kax2;
-  const detail::Lanes<4, Real> t772 = S2_yz * zz_2;
-  const detail::Lanes<4, Real> t776 = kKy2 * z2_2;
+  const detail::Lanes<4, Real> t774 = S2_yz * zz_2;
+  const detail::Lanes<4, Real> t778 = kKy2 * z2_2;
   const detail::Lanes<4, Real> kal2o_x = kal2p_y - w1_z * g12;
   const detail::Lanes<4, Real> kW2w11 = w1_z * w1_z;
   const detail::Lanes<4, Real> kW2w22 = w2_z * w2_z;
-  const detail::Lanes<4, Real> kL1U2_z = detail::Lanes<4, Real>{kL1w00, kW2w22[1], kW2w22[2], kW2w22[3]} +
-      kL1w11;
-  const Real t808 = Real(0.19) * kL1U2_z[0];
   const detail::Lanes<4, Real> kW2U0_x = kW2w11 + kW2w22;
   const detail::Lanes<4, Real> kW2U1_x = kal2p_x + kL1w12;
   const Real kW2U1_y = kL1w11[0] + kW2w22[0];
-  const detail::Lanes<4, Real> ka3o_x = r3_y * kL1U1_z - (ka2o_y + r3_x * kW2U0_x);
-  const detail::Lanes<4, Real> t834 = r3_x * kW2U1_x;
-  const detail::Lanes<4, Real> kKx3 = S3b_xz * w2_z - (S3b_xx * w2pp_y + S3b_xy * w1_z);
+  const detail::Lanes<4, Real> ka3o_x = r3_x * kW2U0_x + (ka2o_y - r3_y * kL1U1_z);
+  const detail::Lanes<4, Real> t831 = r3_x * kW2U1_x;
+  const detail::Lanes<4, Real> kKx3 = S3b_xx * w2pp_y + (S3b_xy * w1_z - S3b_xz * w2_z);
   const detail::Lanes<4, Real> kKy3 = S3b_yy * w1_z + (S3b_xy * w2pp_y - S3b_yz * w2_z);
   const detail::Lanes<4, Real> g13 = {state.z[8], state.z[11], state.z[14], state.z[17]};
   const detail::Lanes<4, Real> z2_3 = detail::Lanes<4, Real>{Real(2.0), Real(2.0), Real(2.0), Real(-2.0)} *
       g13;
-  const Real t914 = -state.z[11];
-  const detail::Lanes<4, Real> zz_3 = detail::Lanes<4, Real>{state.z[8], t914, state.z[14], state.z[17]} *
+  const Real t912 = -state.z[11];
+  const detail::Lanes<4, Real> zz_3 = detail::Lanes<4, Real>{state.z[8], t912, state.z[14], state.z[17]} *
       g13;
-  const Real t919 = -state.z[17];
-  const detail::Lanes<4, Real> g14 = {state.z[8], t914, state.z[14], t919};
-  const detail::Lanes<4, Real> zw_3 = g14 * (g14 + (w2_z + w2_z));
+  const Real t917 = -state.z[17];
+  const detail::Lanes<4, Real> g14 = {state.z[8], t912, state.z[14], t917};
+  const detail::Lanes<4, Real> zw_3 = g14 * (w2_z + (w2_z + g14));
   const detail::Lanes<4, Real> kax3 = h3b_x * w2pp_y + h3b_y * w1_z;
   const detail::Lanes<4, Real> kdf3_x = h3b_x * zw_3;
   const detail::Lanes<4, Real> kdf3_y = h3b_y * zw_3;
   const detail::Lanes<4, Real> kdf3_z = z2_3 * kax3;
-  const detail::Lanes<4, Real> t956 = r3_y * detail::Lanes<4, Real>{kW2U1_y, kdf3_z[1], kdf3_z[2], kdf3_z[3]};
-  const detail::Lanes<4, Real> t960 = S3b_yz * zz_3;
-  const detail::Lanes<4, Real> t964 = kKy3 * z2_3;
-  const detail::Lanes<2, Real> ka5o_z = detail::Lanes<2, Real>{ka1o_x, -ka1o_x} + t808;
-  const Real ka3o_y = t956[0] + (t834[0] - ka5o_z[1]);
-  const Real ka6o_y = r3_y[1] * kL1U2_z[1] - (ka5o_z[0] - t834[1]);
+  const detail::Lanes<4, Real> t954 = S3b_yz * zz_3;
+  const detail::Lanes<4, Real> t958 = kKy3 * z2_3;
+  const detail::Lanes<2, Real> ka5o_z = detail::Lanes<2, Real>{ka1o_x, -ka1o_x} + t672;
+  const Real ka3o_y = r3_y[0] * kW2U1_y + (t831[0] - ka5o_z[1]);
+  const Real kW5U1_y = kL1w11[1] + kW2w22[1];
+  const Real ka6o_y = r3_y[1] * kW5U1_y - (ka5o_z[0] - t831[1]);
+  const Real kW8U1_y = kL1w11[2] + kW2w22[2];
+  const Real kW11U1_y = kL1w11[3] + kW2w22[3];
   const detail::Lanes<2, Real> ka9o_y = detail::Lanes<2, Real>{r3_y[2], r3_y[3]} * detail::Lanes<2,
-      Real>{kL1U2_z[2], kL1U2_z[3]} + (ka5o_z + detail::Lanes<2, Real>{t834[2], t834[3]});
-  const detail::Lanes<4, Real> kQp3 = w2pp_y * kKy3 + (w1_z * kKx3 - (h3b_y * ka3o_x - (h3b_x *
-      detail::Lanes<4, Real>{ka3o_y, ka6o_y, ka9o_y[0], ka9o_y[1]} + (S3b_yz * (w2pp_y * g12) -
-      (detail::Lanes<4, Real>{Real(0.0018349999999999998), Real(0.0018349999999999998),
-      Real(0.0023000000000000004), Real(0.0023000000000000004)} * kal2p_x - S3b_xz * kal2o_x)))));
+      Real>{kW8U1_y, kW11U1_y} + (ka5o_z + detail::Lanes<2, Real>{t831[2], t831[3]});
+  const detail::Lanes<4, Real> kQp3 = h3b_x * detail::Lanes<4, Real>{ka3o_y, ka6o_y, ka9o_y[0], ka9o_y[1]} +
+      h3b_y * ka3o_x + (w2pp_y * kKy3 - (w1_z * kKx3 - (S3b_xz * kal2o_x - (detail::Lanes<4,
+      Real>{Real(0.0018349999999999998), Real(0.0018349999999999998), Real(0.0023000000000000004),
+      Real(0.0023000000000000004)} * kal2p_x - S3b_yz * (w2pp_y * g12)))));
   const detail::Lanes<4, Real> kf3c_x = kdf2_x + kdf3_x;
   const detail::Lanes<4, Real> kf3c_z = kdf2_z + kdf3_z;
-  const detail::Lanes<4, Real> kn3c_y = r3_x * kdf3_z + (kKx2 * z2_2 + (S2_xz * zz_2 + (S3b_xz * zz_3 + kKx3 *
-      z2_3)));
+  const detail::Lanes<4, Real> kn3c_y = kKx2 * z2_2 + (kKx3 * z2_3 - (r3_x * kdf3_z + (S2_xz * zz_2 + S3b_xz *
+      zz_3)));
   const detail::Lanes<4, Real> kn3c_z = r3_x * kdf3_y + r3_y * kdf3_x;
   const detail::Lanes<4, Real> kn2c_x = kn3c_z - detail::Lanes<4, Real>{Real(0.19), Real(0.19), Real(-0.19),
       Real(-0.19)} * kf3c_x;
-  const detail::Lanes<4, Real> t1077 = Real(0.19) * kf3c_z;
-  const detail::Lanes<2, Real> kn8c_y = detail::Lanes<2, Real>{t1077[2], t1077[3]} + (detail::Lanes<2,
-      Real>{t956[2], t956[3]} + (detail::Lanes<2, Real>{t776[2], t776[3]} - (detail::Lanes<2, Real>{t772[2],
-      t772[3]} + (detail::Lanes<2, Real>{t960[2], t960[3]} - detail::Lanes<2, Real>{t964[2], t964[3]}))));
-  const Real kn5c_y = t1077[1] - (t956[1] + (t776[1] + (t964[1] - t960[1] - t772[1])));
-  const Real kn2c_y = t1077[0] - (r3_y[0] * kdf3_z[0] + (t776[0] - (t772[0] + (t960[0] - t964[0]))));
-  const detail::Lanes<4, Real> c1s_2 = {c1, c4, c7, t315};
-  const detail::Lanes<4, Real> t1097 = c1s_2 * kf3c_z;
-  const detail::Lanes<4, Real> t1101 = s1s * kf3c_x;
-  const detail::Lanes<4, Real> kf1_y = detail::Lanes<4, Real>{s1, t287, s7, s10} * kf3c_z + (kdf1_y + c1s_3 *
+  const detail::Lanes<4, Real> t1076 = Real(0.19) * kf3c_z;
+  const detail::Lanes<2, Real> kn8c_y = detail::Lanes<2, Real>{t958[2], t958[3]} + (detail::Lanes<2,
+      Real>{r3_y[2] * kdf3_z[2], r3_y[3] * kdf3_z[3]} - (detail::Lanes<2, Real>{t774[2], t774[3]} +
+      detail::Lanes<2, Real>{t954[2], t954[3]})) + (detail::Lanes<2, Real>{t778[2], t778[3]} +
+      detail::Lanes<2, Real>{t1076[2], t1076[3]});
+  const Real kn5c_y = t958[1] + (r3_y[1] * kdf3_z[1] - (t774[1] + t954[1])) + (t778[1] - t1076[1]);
+  const Real kn2c_y = t958[0] + (r3_y[0] * kdf3_z[0] - (t774[0] + t954[0])) + (t778[0] - t1076[0]);
+  const detail::Lanes<4, Real> kf1_y = detail::Lanes<4, Real>{s1, t287, s7, s10} * kf3c_z + (kdf1_y + c1s_2 *
       kf3c_x);
-  const detail::Lanes<4, Real> kf1_z = kdf3_y + (kdf1_z + kdf2_y);
-  const detail::Lanes<4, Real> t1129 = c1s * kn2c_x;
+  const detail::Lanes<4, Real> kf1_z = kdf1_z + (kdf2_y + kdf3_y);
+  const Real kf0_x = kf1_z[0] + (h1c_x * kuw0 + kf1_z[3]) - (state.z[3] * kuh0 - (kf1_z[2] + kf1_z[1]));
+  const detail::Lanes<4, Real> t1154 = s1s_3 * kf3c_x - (kdf1_x + detail::Lanes<4, Real>{c1, t313, c7, c10} *
+      kf3c_z);
+  const Real kf0_y = state.z[4] * kuh0 + t1154[3] - (h1c_y * kuw0 + t1154[0] + (t1154[2] - t1154[1]));
+  const Real kf0_z = state.z[5] * kuh0 + kf1_y[0] - (h1c_z * kuw0 + kf1_y[3] - (kf1_y[2] - kf1_y[1]));
+  const Real kn0_x = state.z[5] * kSu0_y + (state.z[4] * kSu0_z - (kn3c_y[2] - kn3c_y[3] + (kn3c_y[1] +
+      kn3c_y[0]) - Real(0.05) * (kf1_y[3] + kf1_y[2] + (kf1_y[1] + kf1_y[0]))));
   const detail::Lanes<4, Real> kn2c_ys = {kn2c_y, kn5c_y, kn8c_y[0], kn8c_y[1]};
-  const detail::Lanes<4, Real> t1133 = detail::Lanes<4, Real>{s1, s4, s7, t288} * kn2c_ys;
-  const detail::Lanes<4, Real> t1137 = c1s_2 * kn2c_ys;
-  const detail::Lanes<4, Real> t1141 = s1s * kn2c_x;
-  const Real kf0_x = kf1_z[0] + (kf1_z[1] + (kf1_z[2] + (kf1_z[3] + (state.z[3] * kuh0 + h1c_x * kuw0))));
-  const Real kf0_y = t1101[0] - (t1097[0] + (kdf1_x[0] - (t1101[1] - (t1097[1] - (kdf1_x[1] + (t1101[2] -
-      (t1097[2] + (kdf1_x[2] - (t1101[3] - (t1097[3] - (kdf1_x[3] + (state.z[4] * kuh0 - h1c_y *
-      kuw0))))))))))));
-  const Real kf0_z = kf1_y[0] + (kf1_y[2] - (kf1_y[3] + (state.z[5] * kuh0 - h1c_z * kuw0)) - kf1_y[1]);
-  const Real kn0_x = Real(0.05) * (kf1_y[0] + (kf1_y[1] + (kf1_y[3] + kf1_y[2]))) + (kn3c_y[2] + (kn3c_y[1] +
-      (kn3c_y[0] + (state.z[4] * kSu0_z - state.z[5] * kSu0_y))) - kn3c_y[3]);
-  const Real kn0_y = t1133[0] - (t1129[0] - (t618[0] + (t614[0] + (t1133[1] - (t1129[1] - (t618[1] + (t614[1]
-      - (t1133[2] + (t1129[2] - (t618[2] + (t614[2] - (t1133[3] + (t1129[3] - (t618[3] + (t614[3] +
-      (state.z[3] * kSu0_z - state.z[5] * kSu0_x))))))))))))))));
-  const Real kn0_z = Real(0.05) * (kf1_z[0] - (kf1_z[1] + (kf1_z[3] - kf1_z[2]))) + (t1141[3] - (t1137[3] -
-      (t622[3] + (t1141[2] - (t1137[2] + (t622[2] - (t1141[1] + (t1137[1] + (t622[1] + (t1141[0] + (t1137[0] -
-      (t626[0] - (t622[0] + (state.z[3] * kSu0_y - state.z[4] * kSu0_x))))) - t626[1]))) - t626[2]))) -
-      t626[3])));
-  const detail::Lanes<4, Real> kQ1_0 = kn3c_y - (h1b_y * detail::Lanes<4, Real>{ka1o_y, ka1o_y, ka1o_y,
-      -ka1o_y} + (h1b_x * detail::Lanes<4, Real>{ka1o_z, ka1o_z, ka1o_z, -ka1o_z} - (detail::Lanes<4,
-      Real>{state.z[4], state.z[4], state.z[4], t518} * kKy1 + detail::Lanes<4, Real>{state.z[5], state.z[5],
-      t523, t523} * kKx1)));
-  const detail::Lanes<4, Real> kQ2_0 = kn3c_z - (w2pp_y * kKy2 + (w1_z * kKx2 + (S2_xz * kal2p_y - (J2 *
-      kal2p_x - (detail::Lanes<4, Real>{-h2_x[0], -h2_x[1], h2_x[2], h2_x[3]} * detail::Lanes<4,
-      Real>{ka5o_z[1], ka5o_z[0], ka5o_z[0], ka5o_z[1]} + h2_y * ka2o_y)))));
-  const Real kext0f_x = q0r0_z * kf0_z + (q0r0_x * kf0_x - q0r0_y * kf0_y);
-  const Real kext0f_y = q0r1_z * kf0_z - (q0r1_x * kf0_x - q0r1_y * kf0_y);
-  const Real kext0f_z = q0r2_z * kf0_z + (q0r2_x * kf0_x + q0r2_y * kf0_y);
+  const detail::Lanes<4, Real> t1186 = kKy1 * z2_1 - (detail::Lanes<4, Real>{s1, s4, s7, t288} * kn2c_ys +
+      (S1b_yz * zz_1 + c1s * kn2c_x));
+  const Real kn0_y = t1186[3] + (state.z[5] * kSu0_x + t1186[0]) + (state.z[3] * kSu0_z + (t1186[1] +
+      t1186[2]));
+  const detail::Lanes<4, Real> t1207 = kKx1 * z2_1 + (detail::Lanes<4, Real>{c1, c4, t314, t315} * kn2c_ys -
+      (S1b_xz * zz_1 + s1s_2 * kn2c_x));
+  const Real kn0_z = t1207[3] + (t1207[0] - (state.z[4] * kSu0_x + Real(0.05) * (kf1_z[2] - kf1_z[3] +
+      (kf1_z[0] - kf1_z[1])))) + (state.z[3] * kSu0_y - (t1207[2] - t1207[1]));
+  const detail::Lanes<4, Real> kQ1_0 = detail::Lanes<4, Real>{state.z[5], state.z[5], t523, t523} * kKx1 +
+      (detail::Lanes<4, Real>{state.z[4], state.z[4], state.z[4], t518} * kKy1 - (kn3c_y + (h1b_x *
+      detail::Lanes<4, Real>{ka1o_z, ka1o_z, ka1o_z, -ka1o_z} + h1b_y * detail::Lanes<4, Real>{ka1o_y, ka1o_y,
+      ka1o_y, -ka1o_y})));
+  const detail::Lanes<4, Real> kQ2_0 = kn3c_z - (h2_y * ka2o_y + (detail::Lanes<4, Real>{-h2_x[0], -h2_x[1],
+      h2_x[2], h2_x[3]} * detail::Lanes<4, Real>{ka5o_z[1], ka5o_z[0], ka5o_z[0], ka5o_z[1]} - (J2 * kal2p_x -
+      S2_xz * kal2p_y))) + (w1_z * kKx2 - w2pp_y * kKy2);
+  const Real kext0f_x = q0r0_z * kf0_z + (q0r0_x * kf0_x + q0r0_y * kf0_y);
+  const Real kext0f_y = q0r1_z * kf0_z - (q0r1_x * kf0_x + q0r1_y * kf0_y);
+  const Real kext0f_z = q0r2_z * kf0_z + (q0r2_x * kf0_x - q0r2_y * kf0_y);
   k[0] = kext0f_x;
   k[1] = kext0f_y;
   k[2] = -kext0f_z;
   k[3] = kn0_x;
   k[4] = -kn0_y;
-  k[5] = kn0_z;
+  k[5] = -kn0_z;
   k[6] = kQ1_0[0];
   k[7] = kQ2_0[0];
   k[8] = -kQp3[0];
@@ -1356,9 +1354,9 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const detail::Lanes<4, Real> c1s_2 = {c1, t146, c7, t147};
   const detail::Lanes<4, Real> h1b_y = s1s * detail::Lanes<4, Real>{Real(0.07788), Real(0.07788),
       Real(0.0785), Real(0.0785)} + c1s_2 * h2_x;
-  const Real h1c_x = h2_y[3] + (h2_y[2] + (h2_y[1] + h2_y[0])) + Real(0.0038000000000000035);
-  const Real h1c_y = h1b_x[2] - (h1b_x[3] + (h1b_x[1] - h1b_x[0]));
-  const Real h1c_z = h1b_y[2] - (h1b_y[3] + (h1b_y[1] - h1b_y[0]));
+  const Real h1c_x = h2_y[2] + h2_y[1] + (h2_y[0] + (h2_y[3] + Real(0.0038000000000000035)));
+  const Real h1c_y = h1b_x[3] - h1b_x[2] + (h1b_x[1] - h1b_x[0]);
+  const Real h1c_z = h1b_y[3] - h1b_y[2] + (h1b_y[1] - h1b_y[0]);
   const detail::Lanes<4, Real> g8 = {state.z[6], state.z[9], state.z[12], state.z[15]};
   const detail::Lanes<4, Real> w1_z = state.z[3] + g8;
   const detail::Lanes<4, Real> w2pp_y = s1s * state.z[4] - c1s * state.z[5];
@@ -1379,197 +1377,188 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const detail::Lanes<4, Real> front_foot1x2_y = s1s * Real(0.062) - c1s_2 * front_foot1x3_x;
   const detail::Lanes<4, Real> front_foot1x1p_y = front_foot1x2_x + Real(0.05);
   const Real t307 = -q0r2_x;
-  const detail::Lanes<4, Real> t308 = detail::Lanes<4, Real>{q0r2_x, t307, q0r2_x, q0r2_x} * front_foot1x2p_z;
-  const Real t312 = -q0r2_y;
-  const detail::Lanes<4, Real> t313 = detail::Lanes<4, Real>{q0r2_y, q0r2_y, q0r2_y, t312} * front_foot1x1p_y;
   const Real t317 = -q0r2_z;
-  const detail::Lanes<4, Real> t318 = detail::Lanes<4, Real>{q0r2_z, q0r2_z, q0r2_z, t317} * front_foot1x2_y;
-  const Real expression = t308[0] - (state.y[2] + (t313[0] - (t318[0] + Real(0.02))));
+  const Real t324 = state.y[2] - Real(0.02);
+  const detail::Lanes<4, Real> expression = detail::Lanes<4, Real>{q0r2_y, q0r2_y, q0r2_y, -q0r2_y} *
+      front_foot1x1p_y - (detail::Lanes<4, Real>{q0r2_z, q0r2_z, q0r2_z, t317} * front_foot1x2_y +
+      (detail::Lanes<4, Real>{q0r2_x, t307, q0r2_x, q0r2_x} * front_foot1x2p_z - detail::Lanes<4, Real>{t324,
+      -t324, t324, t324}));
   const detail::Lanes<4, Real> front_foot1v3_x = g11 * front_foot1x_y;
   const detail::Lanes<4, Real> front_foot1v3_y = g11 * front_foot1x_x;
   const detail::Lanes<4, Real> front_foot1v2_x = front_foot1v3_x + g10 * front_foot1x3_y;
   const detail::Lanes<4, Real> front_foot1v2p_x = s1s_2 * front_foot1v2_x;
   const detail::Lanes<4, Real> front_foot1v2p_y = c1s * front_foot1v2_x;
-  const Real vrel0_x = q0r1_x * state.z[1] - (q0r0_x * state.z[0] - q0r2_x * state.z[2]);
+  const Real vrel0_x = q0r0_x * state.z[0] - (q0r1_x * state.z[1] + q0r2_x * state.z[2]);
   const Real vrel0_y = q0r1_y * state.z[1] - (q0r0_y * state.z[0] + q0r2_y * state.z[2]);
-  const Real vrel0_z = q0r1_z * state.z[1] + (q0r0_z * state.z[0] - q0r2_z * state.z[2]);
-  const Real t380 = -state.z[4];
-  const Real t385 = -state.z[5];
-  const detail::Lanes<4, Real> g9 = {state.z[5], t385, state.z[5], t385};
-  const detail::Lanes<4, Real> front_foot1v0_x = vrel0_x + (front_foot1v3_y - (g10 * front_foot1x3_x -
-      (detail::Lanes<4, Real>{state.z[4], t380, state.z[4], t380} * front_foot1x2_y - g9 *
-      front_foot1x1p_y)));
-  const Real t414 = -vrel0_y;
-  const detail::Lanes<4, Real> front_foot1v0_y = detail::Lanes<4, Real>{vrel0_y, t414, vrel0_y, t414} +
-      (front_foot1v2p_x + (g9 * front_foot1x2p_z + w1_z * front_foot1x2_y));
-  const Real t427 = -state.z[3];
-  const detail::Lanes<4, Real> front_foot1v0_z = vrel0_z + (front_foot1v2p_y + (detail::Lanes<4,
-      Real>{state.z[6], -state.z[9], state.z[12], -state.z[15]} * front_foot1x2_x + (detail::Lanes<4,
-      Real>{state.z[3], t427, state.z[3], t427} * front_foot1x1p_y + state.z[4] * front_foot1x2p_z)));
-  const detail::Lanes<4, Real> front_foot1v0pp_z = detail::Lanes<4, Real>{q0r2_y, q0r2_y, t312, q0r2_y} *
-      front_foot1v0_y - (detail::Lanes<4, Real>{q0r2_x, t307, t307, t307} * front_foot1v0_x - detail::Lanes<4,
-      Real>{q0r2_z, t317, t317, t317} * front_foot1v0_z);
+  const Real vrel0_z = q0r2_z * state.z[2] - (q0r0_z * state.z[0] + q0r1_z * state.z[1]);
+  const Real t390 = -state.z[4];
+  const Real t395 = -state.z[5];
+  const detail::Lanes<4, Real> g9 = {state.z[5], t395, state.z[5], t395};
+  const detail::Lanes<4, Real> front_foot1v0_x = g9 * front_foot1x1p_y - (detail::Lanes<4, Real>{state.z[4],
+      t390, state.z[4], t390} * front_foot1x2_y - (g10 * front_foot1x3_x - (front_foot1v3_y - vrel0_x)));
+  const Real t424 = -vrel0_y;
+  const detail::Lanes<4, Real> front_foot1v0_y = detail::Lanes<4, Real>{vrel0_y, t424, vrel0_y, t424} + g9 *
+      front_foot1x2p_z + (front_foot1v2p_x + w1_z * front_foot1x2_y);
+  const Real t437 = -state.z[3];
+  const detail::Lanes<4, Real> front_foot1v0_z = front_foot1v2p_y + detail::Lanes<4, Real>{state.z[6],
+      -state.z[9], state.z[12], -state.z[15]} * front_foot1x2_x + (detail::Lanes<4, Real>{state.z[3], t437,
+      state.z[3], t437} * front_foot1x1p_y - (vrel0_z - state.z[4] * front_foot1x2p_z));
+  const detail::Lanes<4, Real> front_foot1v0pp_z = detail::Lanes<4, Real>{q0r2_z, t317, q0r2_z, t317} *
+      front_foot1v0_z + (detail::Lanes<4, Real>{q0r2_x, t307, q0r2_x, t307} * front_foot1v0_x + q0r2_y *
+      front_foot1v0_y);
   const detail::Lanes<4, Real> expression_2 = front_foot1v0pp_z * detail::Lanes<4, Real>{Real(5.0),
-      Real(-5.0), Real(-5.0), Real(-5.0)};
+      Real(-5.0), Real(5.0), Real(-5.0)};
   const detail::Lanes<4, Real> expression_3 = Real(1.0) + expression_2;
-  const Real expression_4 = state.z[18] * Real(2000.0);
-  const Real t486 = -q0r0_x;
-  const Real t496 = -q0r0_z;
+  const detail::Lanes<4, Real> expression_4 = expression_3 * (expression * detail::Lanes<4,
+      Real>{model.ground, model.ground, model.ground, -model.ground});
+  const Real expression_5 = detail::larger(-expression_4[0], Real(0.0));
+  const Real expression_6 = detail::where_negative(expression[0], expression_5);
+  const Real expression_7 = state.z[18] * Real(2000.0);
+  const Real t509 = -q0r0_x;
+  const Real t518 = -q0r0_z;
   const detail::Lanes<4, Real> spin_front_foot1_2_x = c1s * w3_z + s1s * w2pp_y;
   const detail::Lanes<4, Real> spin_front_foot1_2_y = c1s * w2pp_y - s1s * w3_z;
-  const detail::Lanes<4, Real> spin_front_foot1_0p_y = q0r1_y * spin_front_foot1_2_x - (q0r1_x * w1_z - q0r1_z
-      * spin_front_foot1_2_y);
-  const detail::Lanes<4, Real> expression_5 = detail::Lanes<4, Real>{Real(0.02), Real(-0.02), Real(-0.02),
+  const detail::Lanes<4, Real> spin_front_foot1_0p_y = q0r1_z * spin_front_foot1_2_y - (q0r1_x * w1_z - q0r1_y
+      * spin_front_foot1_2_x);
+  const detail::Lanes<4, Real> expression_8 = detail::Lanes<4, Real>{Real(0.02), Real(-0.02), Real(0.02),
       Real(-0.02)} * spin_front_foot1_0p_y;
-  const detail::Lanes<4, Real> expression_6 = detail::Lanes<4, Real>{q0r0_y, q0r0_y, -q0r0_y, q0r0_y} *
-      front_foot1v0_y + (detail::Lanes<4, Real>{q0r0_x, t486, t486, t486} * front_foot1v0_x -
-      (detail::Lanes<4, Real>{q0r0_z, t496, t496, t496} * front_foot1v0_z + expression_5));
-  const detail::Lanes<4, Real> expression_7 = expression_6 * expression_6;
-  const Real t566 = -q0r1_x;
-  const Real t576 = -q0r1_z;
-  const detail::Lanes<4, Real> spin_front_foot1_0p_x = q0r0_y * spin_front_foot1_2_x - (q0r0_x * w1_z + q0r0_z
-      * spin_front_foot1_2_y);
-  const detail::Lanes<4, Real> expression_8 = detail::Lanes<4, Real>{Real(0.02), Real(-0.02), Real(-0.02),
-      Real(-0.02)} * spin_front_foot1_0p_x;
-  const detail::Lanes<4, Real> expression_9 = detail::Lanes<4, Real>{q0r1_y, q0r1_y, -q0r1_y, q0r1_y} *
-      front_foot1v0_y + (detail::Lanes<4, Real>{q0r1_x, t566, t566, t566} * front_foot1v0_x +
-      (detail::Lanes<4, Real>{q0r1_z, t576, t576, t576} * front_foot1v0_z + expression_8));
+  const detail::Lanes<4, Real> expression_9 = detail::Lanes<4, Real>{q0r0_x, t509, q0r0_x, t509} *
+      front_foot1v0_x + expression_8 - (q0r0_y * front_foot1v0_y - detail::Lanes<4, Real>{q0r0_z, t518,
+      q0r0_z, t518} * front_foot1v0_z);
   const detail::Lanes<4, Real> expression_10 = expression_9 * expression_9;
-  const detail::Lanes<4, Real> expression_11 = expression_10 + (expression_7 + Real(1.0000000000000001e-16));
-  const Real expression_12 = detail::square_root(expression_11[0]);
-  const Real expression_13 = Real(2000.0) * state.z[19];
-  const Real t633 = state.y[2] - Real(0.02);
-  const detail::Lanes<2, Real> expression_14 = t633 - (detail::Lanes<2, Real>{t308[2], t308[3]} -
-      (detail::Lanes<2, Real>{t313[2], t313[3]} - detail::Lanes<2, Real>{t318[2], t318[3]}));
-  const Real expression_15 = Real(2000.0) * state.z[20];
-  const Real expression_16 = detail::square_root(expression_11[2]);
-  const Real expression_17 = Real(2000.0) * state.z[21];
-  const Real expression_18 = t308[1] + (t633 - (t313[1] - t318[1]));
-  const detail::Lanes<4, Real> expression_19 = detail::Lanes<4, Real>{expression, expression_18,
-      expression_14[0], expression_14[1]} * expression_3 * detail::Lanes<4, Real>{model.ground, model.ground,
-      model.ground, -model.ground};
-  const Real expression_20 = detail::larger(expression_19[0], Real(0.0));
-  const Real expression_21 = detail::where_negative(-expression, expression_20);
-  const Real expression_22 = detail::larger(-expression_19[2], Real(0.0));
-  const Real expression_23 = detail::where_negative(expression_14[0], expression_22);
-  const Real expression_24 = detail::larger(-expression_19[1], Real(0.0));
-  const Real expression_25 = detail::where_negative(expression_18, expression_24);
-  const Real expression_26 = Real(2000.0) * state.z[22];
-  const Real expression_27 = detail::square_root(expression_11[1]);
-  const Real expression_28 = Real(2000.0) * state.z[23];
-  const Real expression_29 = detail::larger(expression_19[3], Real(0.0));
-  const Real expression_30 = detail::where_negative(expression_14[1], expression_29);
-  const Real expression_31 = Real(2000.0) * state.z[24];
-  const Real expression_32 = detail::square_root(expression_11[3]);
-  const detail::Lanes<4, Real> expression_12s = {expression_12, expression_27, expression_16, expression_32};
-  const detail::Lanes<4, Real> expression_33 = detail::Lanes<4, Real>{expression_4, -expression_26,
-      -expression_15, -expression_31} * expression_12s * model.c4;
-  const detail::Lanes<4, Real> expression_34 = expression_6 + expression_33;
-  const detail::Lanes<4, Real> expression_35 = expression_34 * detail::Lanes<4, Real>{Real(10.0), Real(-10.0),
-      Real(-10.0), Real(-10.0)};
-  const detail::Lanes<4, Real> expression_36 = detail::Lanes<4, Real>{expression_4, expression_26,
-      expression_15, expression_31} - expression_35;
-  const detail::Lanes<4, Real> expression_21s = {expression_21, expression_25, expression_23, expression_30};
-  const detail::Lanes<4, Real> expression_37 = expression_21s * expression_36;
-  const detail::Lanes<4, Real> expression_38 = Real(0.02) * expression_37;
-  const Real expression_39 = Real(2000.0) * state.z[25];
-  const Real t746 = -model.c4;
-  const detail::Lanes<4, Real> expression_13s = {expression_13, expression_28, expression_17, expression_39};
-  const detail::Lanes<4, Real> expression_40 = detail::Lanes<4, Real>{model.c4, t746, t746, t746} *
-      (expression_12s * expression_13s);
-  const detail::Lanes<4, Real> expression_41 = expression_9 - expression_40;
-  const detail::Lanes<4, Real> expression_42 = detail::Lanes<4, Real>{Real(10.0), Real(-10.0), Real(-10.0),
-      Real(-10.0)} * expression_41;
-  const detail::Lanes<4, Real> expression_43 = expression_13s + expression_42;
-  const detail::Lanes<4, Real> expression_44 = expression_21s * expression_43;
-  const detail::Lanes<4, Real> expression_45 = Real(0.02) * expression_44;
-  const detail::Lanes<4, Real> front_sole1n0_y = q0r0_y * expression_45 + q0r1_y * expression_38;
-  const detail::Lanes<4, Real> front_sole1n0_z = q0r0_z * expression_45 - q0r1_z * expression_38;
-  const detail::Lanes<4, Real> front_sole1f0_x = q0r1_x * expression_44 - (q0r0_x * expression_37 +
-      detail::Lanes<4, Real>{q0r2_x * expression_21, q0r2_x * expression_25, q0r2_x * expression_23, q0r2_x *
-      expression_30});
-  const detail::Lanes<4, Real> front_sole1f0_y = q0r1_y * expression_44 - (q0r0_y * expression_37 -
-      detail::Lanes<4, Real>{q0r2_y * expression_21, q0r2_y * expression_25, q0r2_y * expression_23, q0r2_y *
-      expression_30});
-  const detail::Lanes<4, Real> front_sole1f0_z = q0r1_z * expression_44 + (q0r0_z * expression_37 +
-      detail::Lanes<4, Real>{q0r2_z * expression_21, q0r2_z * expression_25, q0r2_z * expression_23, q0r2_z *
-      expression_30});
+  const Real t588 = -q0r1_x;
+  const Real t597 = -q0r1_z;
+  const detail::Lanes<4, Real> spin_front_foot1_0p_x = q0r0_z * spin_front_foot1_2_y + (q0r0_x * w1_z - q0r0_y
+      * spin_front_foot1_2_x);
+  const detail::Lanes<4, Real> expression_11 = detail::Lanes<4, Real>{Real(0.02), Real(-0.02), Real(0.02),
+      Real(-0.02)} * spin_front_foot1_0p_x;
+  const detail::Lanes<4, Real> expression_12 = detail::Lanes<4, Real>{q0r1_x, t588, q0r1_x, t588} *
+      front_foot1v0_x + expression_11 - (q0r1_y * front_foot1v0_y + detail::Lanes<4, Real>{q0r1_z, t597,
+      q0r1_z, t597} * front_foot1v0_z);
+  const detail::Lanes<4, Real> expression_13 = expression_12 * expression_12;
+  const detail::Lanes<4, Real> expression_14 = expression_13 + (expression_10 + Real(1.0000000000000001e-16));
+  const Real expression_15 = detail::square_root(expression_14[0]);
+  const Real expression_16 = Real(2000.0) * state.z[19];
+  const Real expression_17 = detail::larger(-expression_4[2], Real(0.0));
+  const Real expression_18 = detail::where_negative(expression[2], expression_17);
+  const Real expression_19 = Real(2000.0) * state.z[20];
+  const Real expression_20 = detail::square_root(expression_14[2]);
+  const Real expression_21 = Real(2000.0) * state.z[21];
+  const Real expression_22 = detail::larger(expression_4[1], Real(0.0));
+  const Real expression_23 = detail::where_negative(-expression[1], expression_22);
+  const Real expression_24 = Real(2000.0) * state.z[22];
+  const Real expression_25 = detail::square_root(expression_14[1]);
+  const Real expression_26 = Real(2000.0) * state.z[23];
+  const Real expression_27 = detail::larger(expression_4[3], Real(0.0));
+  const Real expression_28 = detail::where_negative(expression[3], expression_27);
+  const Real expression_29 = Real(2000.0) * state.z[24];
+  const Real expression_30 = detail::square_root(expression_14[3]);
+  const Real t685 = -expression_25;
+  const Real t686 = -expression_30;
+  const detail::Lanes<4, Real> expression_15s = {expression_15, t685, expression_20, t686};
+  const detail::Lanes<4, Real> expression_31 = expression_15s * (detail::Lanes<4, Real>{expression_7,
+      expression_24, expression_19, expression_29} * model.c4);
+  const detail::Lanes<4, Real> expression_32 = expression_9 - expression_31;
+  const detail::Lanes<4, Real> expression_33 = expression_32 * Real(10.0);
+  const detail::Lanes<4, Real> expression_34 = detail::Lanes<4, Real>{expression_7, -expression_24,
+      expression_19, -expression_29} + expression_33;
+  const Real t710 = -expression_23;
+  const Real t711 = -expression_28;
+  const detail::Lanes<4, Real> expression_6s = {expression_6, t710, expression_18, t711};
+  const detail::Lanes<4, Real> expression_35 = expression_6s * expression_34;
+  const detail::Lanes<4, Real> expression_36 = Real(0.02) * expression_35;
+  const Real expression_37 = Real(2000.0) * state.z[25];
+  const detail::Lanes<4, Real> expression_38 = expression_15s * (model.c4 * detail::Lanes<4,
+      Real>{expression_16, expression_26, expression_21, expression_37});
+  const detail::Lanes<4, Real> expression_39 = expression_12 + expression_38;
+  const detail::Lanes<4, Real> expression_40 = Real(10.0) * expression_39;
+  const detail::Lanes<4, Real> expression_41 = detail::Lanes<4, Real>{expression_16, -expression_26,
+      expression_21, -expression_37} - expression_40;
+  const detail::Lanes<4, Real> expression_42 = expression_6s * expression_41;
+  const detail::Lanes<4, Real> expression_43 = Real(0.02) * expression_42;
+  const detail::Lanes<4, Real> front_sole1n0_y = q0r0_y * expression_43 + q0r1_y * expression_36;
+  const detail::Lanes<4, Real> front_sole1n0_z = q0r0_z * expression_43 - q0r1_z * expression_36;
+  const detail::Lanes<4, Real> front_sole1f0_x = q0r1_x * expression_42 - (q0r0_x * expression_35 +
+      detail::Lanes<4, Real>{q0r2_x * expression_6, q0r2_x * expression_23, q0r2_x * expression_18, q0r2_x *
+      expression_28});
+  const detail::Lanes<4, Real> front_sole1f0_y = q0r1_y * expression_42 - (q0r0_y * expression_35 -
+      detail::Lanes<4, Real>{q0r2_y * expression_6, q0r2_y * expression_23, q0r2_y * expression_18, q0r2_y *
+      expression_28});
+  const detail::Lanes<4, Real> front_sole1f0_z = q0r1_z * expression_42 + (q0r0_z * expression_35 +
+      detail::Lanes<4, Real>{q0r2_z * expression_6, q0r2_z * expression_23, q0r2_z * expression_18, q0r2_z *
+      expression_28});
   const detail::Lanes<4, Real> front_sole1f2p_x = c1s * front_sole1f0_y - s1s * front_sole1f0_z;
   const detail::Lanes<4, Real> front_sole1f2p_y = c1s * front_sole1f0_z + s1s * front_sole1f0_y;
-  const detail::Lanes<4, Real> front_sole1m_z = s1s * front_sole1n0_z + (c1s * front_sole1n0_y +
-      (front_foot1x_x * front_sole1f0_x + front_foot1x_y * front_sole1f2p_y));
-  const detail::Lanes<4, Real> qloadn3c_y = q0r1_x * expression_38 + (q0r0_x * expression_45 -
-      (detail::Lanes<4, Real>{Real(0.062), Real(-0.062), Real(0.062), Real(-0.062)} * front_sole1f2p_y -
-      front_foot1x3_x * front_sole1f2p_x));
-  const detail::Lanes<4, Real> qloadn3c_z = r3_x * front_sole1f0_x - (front_sole1m_z + r3_y *
+  const detail::Lanes<4, Real> front_sole1m_z = front_foot1x_y * front_sole1f2p_y + (front_foot1x_x *
+      front_sole1f0_x + (c1s * front_sole1n0_y + s1s * front_sole1n0_z));
+  const detail::Lanes<4, Real> qloadn3c_y = front_foot1x3_x * front_sole1f2p_x - (detail::Lanes<4,
+      Real>{Real(0.062), Real(-0.062), Real(0.062), Real(-0.062)} * front_sole1f2p_y - (q0r0_x * expression_43
+      + q0r1_x * expression_36));
+  const detail::Lanes<4, Real> qloadn3c_z = front_sole1m_z - (r3_x * front_sole1f0_x - r3_y *
       front_sole1f2p_y);
-  const detail::Lanes<4, Real> qloadn2c_x = qloadn3c_z + detail::Lanes<4, Real>{Real(0.19), Real(0.19),
+  const detail::Lanes<4, Real> qloadn2c_x = qloadn3c_z - detail::Lanes<4, Real>{Real(0.19), Real(0.19),
       Real(-0.19), Real(-0.19)} * front_sole1f2p_y;
-  const detail::Lanes<4, Real> qloadn2c_y = s1s * front_sole1n0_y - (c1s * front_sole1n0_z - (detail::Lanes<4,
-      Real>{Real(0.062), Real(-0.062), Real(0.062), Real(-0.062)} * front_sole1f0_x - front_foot1x2p_z *
-      front_sole1f2p_x));
-  const detail::Lanes<4, Real> t959 = c1s * qloadn2c_x;
-  const detail::Lanes<4, Real> t963 = s1s * qloadn2c_y;
-  const detail::Lanes<4, Real> t967 = c1s * qloadn2c_y;
-  const detail::Lanes<4, Real> t971 = s1s * qloadn2c_x;
-  const Real qloadf1c_x = front_sole1f0_x[1] + (front_sole1f0_x[0] + (front_sole1f0_x[2] +
-      front_sole1f0_x[3]));
-  const Real qloadf1c_y = front_sole1f0_y[3] + (front_sole1f0_y[2] + (front_sole1f0_y[0] +
-      front_sole1f0_y[1]));
-  const Real qloadf1c_z = front_sole1f0_z[2] + (front_sole1f0_z[3] + (front_sole1f0_z[0] +
-      front_sole1f0_z[1]));
-  const Real qext0f_x = q0r0_y * qloadf1c_y + (q0r0_x * qloadf1c_x - q0r0_z * qloadf1c_z);
-  const Real qext0f_y = q0r1_y * qloadf1c_y + (q0r1_x * qloadf1c_x + q0r1_z * qloadf1c_z);
+  const detail::Lanes<4, Real> qloadn2c_y = front_foot1x2p_z * front_sole1f2p_x - (detail::Lanes<4,
+      Real>{Real(0.062), Real(-0.062), Real(0.062), Real(-0.062)} * front_sole1f0_x - (c1s * front_sole1n0_z -
+      s1s * front_sole1n0_y));
+  const detail::Lanes<2, Real> t976 = detail::Lanes<2, Real>{front_sole1f0_x[0], front_sole1f0_x[1]} +
+      detail::Lanes<2, Real>{front_sole1f0_x[2], front_sole1f0_x[3]};
+  const Real qloadf1c_x = t976[0] + t976[1];
+  const Real qloadf1c_y = front_sole1f0_y[0] + front_sole1f0_y[2] + (front_sole1f0_y[1] + front_sole1f0_y[3]);
+  const detail::Lanes<2, Real> t982 = detail::Lanes<2, Real>{front_sole1f0_z[0], front_sole1f0_z[1]} +
+      detail::Lanes<2, Real>{front_sole1f0_z[2], front_sole1f0_z[3]};
+  const Real qloadf1c_z = t982[0] + t982[1];
+  const Real qext0f_x = q0r0_z * qloadf1c_z - (q0r0_x * qloadf1c_x + q0r0_y * qloadf1c_y);
+  const Real qext0f_y = q0r1_z * qloadf1c_z + (q0r1_x * qloadf1c_x + q0r1_y * qloadf1c_y);
   const Real g0_x = q0r2_x * Real(9.81);
   const Real g0_y = q0r2_y * Real(9.81);
   const Real g0_z = q0r2_z * Real(9.81);
-  const Real q_2 = q0r2_y * qloadf1c_y - (q0r2_x * qloadf1c_x - (q0r2_z * qloadf1c_z - model.c5));
-  const Real q_3 = qloadn3c_y[0] + (qloadn3c_y[1] + (qloadn3c_y[2] + (qloadn3c_y[3] + (h1c_y * g0_z + (h1c_z *
-      g0_y - Real(0.05) * (front_sole1f0_z[2] - (front_sole1f0_z[3] - (front_sole1f0_z[0] -
-      front_sole1f0_z[1]))))))));
-  const Real q_4 = t963[3] - (t959[3] + (t959[2] - (t963[2] - (t959[1] - (t963[1] - (t959[0] - (t963[0] -
-      (h1c_x * g0_z - h1c_z * g0_x))))))));
-  const Real q_5 = t971[0] + (t967[0] + (t967[1] + (t971[1] + (t967[2] + (t971[2] + (t967[3] + (t971[3] +
-      (h1c_x * g0_y + (h1c_y * g0_x - Real(0.05) * (front_sole1f0_x[3] - (front_sole1f0_x[2] +
-      (front_sole1f0_x[0] - front_sole1f0_x[1]))))))))))));
-  const Real t1044 = -g0_z;
-  const Real t1049 = -g0_y;
-  const detail::Lanes<4, Real> q_6 = g8 * model.calm + (detail::Lanes<4, Real>{state.y[7], state.y[10],
-      state.y[13], state.y[16]} * model.hold - (detail::Lanes<4, Real>{input.u[0], input.u[3], input.u[6],
-      input.u[9]} + (qloadn3c_y + (h1b_x * detail::Lanes<4, Real>{g0_z, t1044, g0_z, t1044} + h1b_y *
-      detail::Lanes<4, Real>{g0_y, t1049, g0_y, t1049}))));
+  const Real q_2 = q0r2_x * qloadf1c_x + model.c5 - (q0r2_y * qloadf1c_y + q0r2_z * qloadf1c_z);
+  const Real q_3 = qloadn3c_y[2] + qloadn3c_y[1] + (qloadn3c_y[0] + (qloadn3c_y[3] - (Real(0.05) * (t982[0] -
+      t982[1]) + (h1c_y * g0_z + h1c_z * g0_y))));
+  const detail::Lanes<4, Real> t1018 = c1s * qloadn2c_x - s1s * qloadn2c_y;
+  const Real q_4 = t1018[1] + t1018[2] + (t1018[3] + (t1018[0] - (h1c_x * g0_z + h1c_z * g0_x)));
+  const detail::Lanes<4, Real> t1031 = detail::Lanes<4, Real>{c1, t146, c7, c10} * qloadn2c_y +
+      detail::Lanes<4, Real>{s1, t132, s7, s10} * qloadn2c_x;
+  const Real q_5 = t1031[1] - t1031[2] - (t1031[3] + (t1031[0] - (Real(0.05) * (t976[0] - t976[1]) + (h1c_x *
+      g0_y - h1c_y * g0_x))));
+  const Real t1041 = -g0_z;
+  const Real t1046 = -g0_y;
+  const detail::Lanes<4, Real> q_6 = qloadn3c_y + (h1b_y * detail::Lanes<4, Real>{g0_y, t1046, g0_y, t1046} +
+      (h1b_x * detail::Lanes<4, Real>{g0_z, t1041, g0_z, t1041} - (g8 * model.calm + (detail::Lanes<4,
+      Real>{state.y[7], state.y[10], state.y[13], state.y[16]} * model.hold - detail::Lanes<4,
+      Real>{input.u[0], input.u[3], input.u[6], input.u[9]}))));
   const detail::Lanes<4, Real> g2p_y = c1s * g0_z + s1s * g0_y;
-  const detail::Lanes<4, Real> q_7 = g10 * model.calm + (model.hold * stretch2 - (detail::Lanes<4,
-      Real>{input.u[1], input.u[4], input.u[7], input.u[10]} + (qloadn3c_z - (h2_x * g0_x - h2_y * g2p_y))));
-  const detail::Lanes<4, Real> q_8 = g11 * model.calm + (model.hold * stretch3 - (detail::Lanes<4,
-      Real>{input.u[2], input.u[5], input.u[8], input.u[11]} - (front_sole1m_z + (h3b_x * g0_x - h3b_y *
-      g2p_y))));
-  q[0] = -qext0f_x;
+  const detail::Lanes<4, Real> q_7 = qloadn3c_z - (h2_y * g2p_y - (h2_x * g0_x + (model.hold * stretch2 + (g10
+      * model.calm - detail::Lanes<4, Real>{input.u[1], input.u[4], input.u[7], input.u[10]}))));
+  const detail::Lanes<4, Real> q_8 = front_sole1m_z - (h3b_y * g2p_y - (h3b_x * g0_x + (model.hold * stretch3
+      + (g11 * model.calm - detail::Lanes<4, Real>{input.u[2], input.u[5], input.u[8], input.u[11]}))));
+  q[0] = qext0f_x;
   q[1] = qext0f_y;
-  q[2] = -q_2;
+  q[2] = q_2;
   q[3] = -q_3;
   q[4] = q_4;
   q[5] = -q_5;
-  q[6] = q_6[0];
+  q[6] = -q_6[0];
   q[7] = q_7[0];
   q[8] = q_8[0];
-  q[9] = q_6[1];
+  q[9] = -q_6[1];
   q[10] = q_7[1];
   q[11] = q_8[1];
-  q[12] = q_6[2];
+  q[12] = -q_6[2];
   q[13] = q_7[2];
   q[14] = q_8[2];
-  q[15] = q_6[3];
+  q[15] = -q_6[3];
   q[16] = q_7[3];
   q[17] = q_8[3];
-  q[18] = expression_34[0];
-  q[19] = -expression_41[0];
-  q[20] = -expression_34[2];
-  q[21] = expression_41[2];
-  q[22] = -expression_34[1];
-  q[23] = expression_41[1];
-  q[24] = -expression_34[3];
-  q[25] = expression_41[3];
+  q[18] = -expression_32[0];
+  q[19] = expression_39[0];
+  q[20] = -expression_32[2];
+  q[21] = expression_39[2];
+  q[22] = expression_32[1];
+  q[23] = -expression_39[1];
+  q[24] = expression_32[3];
+  q[25] = -expression_39[3];
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -1644,68 +1633,78 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
       Real(0.0462)};
   const detail::Lanes<4, Real> h2_x = h3b_x - h2b_x;
   const detail::Lanes<4, Real> h2_y = h3b_y + h2b_y;
-  const detail::Lanes<4, Real> J2 = D3 + (detail::Lanes<4, Real>{Real(0.008967), Real(0.008967),
-      Real(0.009408), Real(0.009408)} + E3);
-  const detail::Lanes<4, Real> S2_xx = Real(2.0) * (r3_x * h3b_x) - (S3b_xx + (detail::Lanes<4,
+  const detail::Lanes<4, Real> J2 = E3 + (detail::Lanes<4, Real>{Real(0.008967), Real(0.008967),
+      Real(0.009408), Real(0.009408)} + D3);
+  const detail::Lanes<4, Real> S2_xx = S3b_xx - (h3b_x * (Real(2.0) * r3_x) - (detail::Lanes<4,
       Real>{Real(0.008712), Real(0.008712), Real(0.009153), Real(0.009153)} - s2s * S2b_t));
-  const detail::Lanes<4, Real> S2_xy = r3_x * h3b_y - (S3b_xy + (r3_y * h3b_x - S2b_xy));
+  const detail::Lanes<4, Real> S2_xy = S3b_xy - S2b_xy - (r3_x * h3b_y - r3_y * h3b_x);
   const detail::Lanes<4, Real> S2_xz = S3b_xz - S2b_xz;
   const detail::Lanes<4, Real> S2_yz = S3b_yz + S2b_yz;
-  const detail::Lanes<4, Real> S2_yy = J2 + S2_xx;
+  const detail::Lanes<4, Real> S2_yy = J2 - S2_xx;
   const detail::Lanes<4, Real> S2c_xz = detail::Lanes<4, Real>{Real(0.0147372), Real(0.0147372),
       Real(-0.014855), Real(-0.014855)} - S2_yz;
-  const detail::Lanes<4, Real> S2c_yy = Real(0.00025) - S2_xx;
-  const detail::Lanes<4, Real> S2c_yz = S2_xy + detail::Lanes<4, Real>{Real(0.19), Real(0.19), Real(-0.19),
+  const detail::Lanes<4, Real> S2c_yy = Real(0.00025) + S2_xx;
+  const detail::Lanes<4, Real> S2c_yz = S2_xy - detail::Lanes<4, Real>{Real(0.19), Real(0.19), Real(-0.19),
       Real(-0.19)} * h2_x;
-  const detail::Lanes<4, Real> S2c_zz = S2_yy - detail::Lanes<4, Real>{Real(0.38), Real(0.38), Real(-0.38),
-      Real(-0.38)} * h2_y;
+  const detail::Lanes<4, Real> t282 = Real(0.38) * h2_y;
+  const Real S11c_zz = S2_yy[3] + t282[3];
   const detail::Lanes<4, Real> S1b_zz = detail::Lanes<4, Real>{Real(0.00539936), Real(0.00539936),
       Real(0.0054378000000000004), Real(0.0054378000000000004)} + S2c_yy;
   const detail::Lanes<4, Real> S1b_d = detail::Lanes<4, Real>{Real(0.00539936), Real(0.00539936),
       Real(0.0054378000000000004), Real(0.0054378000000000004)} - S2c_yy;
   const detail::Lanes<4, Real> c1s = {c1, c4, c7, c10};
-  const detail::Lanes<4, Real> t301 = c1s * S2_xz;
-  const Real t309 = -s4;
-  const Real t310 = -s10;
-  const detail::Lanes<4, Real> s1s_4 = {s1, t309, s7, t310};
-  const detail::Lanes<4, Real> S1b_t = Real(2.0) * t301 + s1s_4 * S1b_d;
+  const detail::Lanes<4, Real> t297 = c1s * S2_xz;
+  const Real t305 = -s4;
+  const Real t306 = -s10;
+  const detail::Lanes<4, Real> s1s_3 = {s1, t305, s7, t306};
+  const detail::Lanes<4, Real> S1b_t = Real(2.0) * t297 + s1s_3 * S1b_d;
   const detail::Lanes<4, Real> S1b_xx = detail::Lanes<4, Real>{Real(0.00539936), Real(0.00539936),
-      Real(0.0054378000000000004), Real(0.0054378000000000004)} - s1s_4 * S1b_t;
+      Real(0.0054378000000000004), Real(0.0054378000000000004)} - s1s_3 * S1b_t;
   const detail::Lanes<4, Real> S1b_xy = S2_xz - c1s * S1b_t;
-  const Real t335 = -c7;
-  const Real t336 = -c10;
-  const Real t341 = -s7;
-  const detail::Lanes<4, Real> c1s_4 = {c1, c4, t335, t336};
-  const detail::Lanes<4, Real> s1s_5 = {s1, t309, t341, s10};
-  const detail::Lanes<4, Real> S1b_xz = c1s_4 * S2c_xz - s1s_5 * S2c_yz;
-  const detail::Lanes<4, Real> S1b_yz = c1s * S2c_yz + s1s_4 * S2c_xz;
+  const Real t331 = -c4;
+  const Real t332 = -c7;
+  const Real t333 = -c10;
+  const Real t338 = -s7;
+  const detail::Lanes<4, Real> c1s_3 = {c1, t331, t332, t333};
+  const detail::Lanes<4, Real> s1s_2 = {s1, s4, t338, s10};
+  const detail::Lanes<4, Real> S1b_xz = c1s_3 * S2c_xz + s1s_2 * S2c_yz;
+  const detail::Lanes<4, Real> S1b_yz = c1s * S2c_yz - s1s_3 * S2c_xz;
   const detail::Lanes<4, Real> S1b_yy = S1b_zz - S1b_xx;
   const detail::Lanes<4, Real> h1b_x = c1s * detail::Lanes<4, Real>{Real(0.07788), Real(0.07788),
-      Real(-0.0785), Real(0.0785)} - detail::Lanes<4, Real>{s1, t309, t341, t310} * h2_x;
+      Real(0.0785), Real(0.0785)} - s1s_3 * h2_x;
   const detail::Lanes<4, Real> s1s = {s1, s4, s7, s10};
-  const detail::Lanes<4, Real> c1s_2 = {c1, c4, c7, t336};
-  const detail::Lanes<4, Real> h1b_y = s1s * detail::Lanes<4, Real>{Real(0.07788), Real(-0.07788),
+  const detail::Lanes<4, Real> c1s_2 = {c1, t331, c7, t333};
+  const detail::Lanes<4, Real> h1b_y = s1s * detail::Lanes<4, Real>{Real(0.07788), Real(0.07788),
       Real(0.0785), Real(0.0785)} + c1s_2 * h2_x;
-  const Real t395 = h2_y[3] + Real(0.0038000000000000035);
-  const Real S1c_xx = S2c_zz[3] + (S2c_zz[2] + (S2c_zz[1] + S2c_zz[0])) + Real(0.22637000000000002);
-  const Real S1c_xz = S1b_yz[2] + (S1b_yz[3] + (S1b_yz[1] + S1b_yz[0]));
-  const Real S1c_zz = S1b_yy[3] + (S1b_yy[2] + (S1b_yy[1] + S1b_yy[0])) + Real(0.0024000000000000002);
-  const detail::Lanes<4, Real> g14 = {state.z[6], state.z[9], state.z[12], state.z[15]};
-  const detail::Lanes<4, Real> w1_z = state.z[3] + g14;
-  const Real t419 = -c4;
-  const detail::Lanes<4, Real> c1s_5 = {c1, t419, c7, t336};
-  const detail::Lanes<4, Real> w2pp_x = c1s_5 * state.z[4] + s1s_4 * state.z[5];
+  const Real h1c_x = h2_y[2] + h2_y[1] + (h2_y[0] + (h2_y[3] + Real(0.0038000000000000035)));
+  const Real h1c_y = h1b_x[3] - h1b_x[2] + (h1b_x[1] - h1b_x[0]);
+  const Real h1c_z = h1b_y[3] - h1b_y[2] + (h1b_y[1] - h1b_y[0]);
+  const Real t404 = S2_yy[2] + S2_yy[1] + (S2_yy[0] - (t282[0] - (t282[2] - t282[1])));
+  const Real S1c_xx = t404 + (S11c_zz + Real(0.22637000000000002));
+  const Real S1c_xy = S1b_xz[2] - S1b_xz[1] - (S1b_xz[0] + (S1b_xz[3] + (h2_y[3] - h2_y[2] + (h2_y[1] -
+      h2_y[0])) * Real(0.05)));
+  const Real S1c_xz = S1b_yz[3] + S1b_yz[2] + (S1b_yz[1] + S1b_yz[0]);
+  const Real S1c_yy = S1b_xx[2] + S1b_xx[1] + (S1b_xx[0] + (S1b_xx[3] + ((h1b_x[3] + h1b_x[2] + (h1b_x[1] +
+      h1b_x[0])) * Real(0.1) + Real(0.02215))));
+  const Real t435 = S1b_xy[2] - S1b_xy[1];
+  const Real S1c_yz = S1b_xy[3] + Real(0.05) * (h1b_y[3] + h1b_y[2] + (h1b_y[1] + h1b_y[0])) - (S1b_xy[0] +
+      t435);
+  const Real t442 = S1b_yy[0] + (S1b_yy[2] + S1b_yy[1]);
+  const Real S1c_zz = S1b_yy[3] + Real(0.0024000000000000002) + t442;
+  const detail::Lanes<4, Real> g12 = {state.z[6], state.z[9], state.z[12], state.z[15]};
+  const detail::Lanes<4, Real> w1_z = state.z[3] + g12;
+  const detail::Lanes<4, Real> w2pp_x = c1s_2 * state.z[4] + s1s_3 * state.z[5];
   const detail::Lanes<4, Real> w2pp_y = s1s * state.z[4] - c1s * state.z[5];
-  const Real t447 = -state.z[10];
-  const Real t450 = -state.z[16];
-  const detail::Lanes<4, Real> g20 = {state.z[7], t447, state.z[13], t450};
-  const detail::Lanes<4, Real> w2_z = w2pp_x + g20;
-  const Real t457 = -state.z[11];
-  const Real t460 = -state.z[17];
-  const detail::Lanes<4, Real> g22 = {state.z[8], t457, state.z[14], t460};
-  const detail::Lanes<4, Real> w3_z = w2_z + g22;
-  const Real t473 = -state.z[9];
-  const Real t474 = -state.z[15];
+  const Real t481 = -state.z[10];
+  const Real t484 = -state.z[16];
+  const detail::Lanes<4, Real> g19 = {state.z[7], t481, state.z[13], t484};
+  const detail::Lanes<4, Real> w2_z = w2pp_x + g19;
+  const Real t491 = -state.z[11];
+  const Real t494 = -state.z[17];
+  const detail::Lanes<4, Real> g21 = {state.z[8], t491, state.z[14], t494};
+  const detail::Lanes<4, Real> w3_z = w2_z + g21;
+  const Real t507 = -state.z[9];
+  const Real t508 = -state.z[15];
   const detail::Lanes<4, Real> stretch2 = detail::Lanes<4, Real>{state.y[8], state.y[11], state.y[14],
       state.y[17]} + Real(0.8);
   const detail::Lanes<4, Real> stretch3 = detail::Lanes<4, Real>{state.y[9], state.y[12], state.y[15],
@@ -1716,282 +1715,265 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const detail::Lanes<4, Real> front_foot1x3_y = r3_y + front_foot1x_y;
   const detail::Lanes<4, Real> front_foot1x2p_z = detail::Lanes<4, Real>{Real(0.19), Real(0.19), Real(-0.19),
       Real(-0.19)} - front_foot1x3_y;
-  const detail::Lanes<4, Real> front_foot1x2_x = c1s * Real(0.062) + s1s_4 * front_foot1x3_x;
-  const detail::Lanes<4, Real> front_foot1x2_y = s1s * Real(0.062) - c1s_5 * front_foot1x3_x;
+  const detail::Lanes<4, Real> front_foot1x2_x = c1s * Real(0.062) + s1s_3 * front_foot1x3_x;
+  const detail::Lanes<4, Real> front_foot1x2_y = s1s * Real(0.062) - c1s_2 * front_foot1x3_x;
   const detail::Lanes<4, Real> front_foot1x1p_y = Real(0.05) + front_foot1x2_x;
-  const Real t556 = -q0r2_x;
-  const detail::Lanes<4, Real> t557 = detail::Lanes<4, Real>{q0r2_x, q0r2_x, t556, t556} * front_foot1x2p_z;
-  const Real t561 = -q0r2_y;
-  const detail::Lanes<4, Real> t562 = detail::Lanes<4, Real>{q0r2_y, q0r2_y, q0r2_y, t561} * front_foot1x1p_y;
-  const Real t566 = -q0r2_z;
-  const detail::Lanes<4, Real> t567 = detail::Lanes<4, Real>{q0r2_z, q0r2_z, q0r2_z, t566} * front_foot1x2_y;
-  const Real expression = t557[0] + (state.y[2] + (t562[0] - (t567[0] + Real(0.02))));
-  const detail::Lanes<4, Real> g21 = {state.z[8], state.z[11], state.z[14], state.z[17]};
-  const detail::Lanes<4, Real> front_foot1v3_x = g21 * front_foot1x_y;
-  const detail::Lanes<4, Real> front_foot1v3_y = g21 * front_foot1x_x;
-  const detail::Lanes<4, Real> g19 = {state.z[7], state.z[10], state.z[13], state.z[16]};
-  const detail::Lanes<4, Real> front_foot1v2_x = front_foot1v3_x + g19 * front_foot1x3_y;
-  const detail::Lanes<4, Real> front_foot1v2p_x = s1s_4 * front_foot1v2_x;
+  const Real t589 = -q0r2_x;
+  const Real t594 = -q0r2_y;
+  const Real t599 = -q0r2_z;
+  const Real t606 = state.y[2] - Real(0.02);
+  const Real t607 = -t606;
+  const detail::Lanes<4, Real> expression = detail::Lanes<4, Real>{q0r2_y, t594, t594, q0r2_y} *
+      front_foot1x1p_y - (detail::Lanes<4, Real>{q0r2_z, t599, t599, q0r2_z} * front_foot1x2_y -
+      (detail::Lanes<4, Real>{q0r2_x, q0r2_x, t589, t589} * front_foot1x2p_z + detail::Lanes<4, Real>{t606,
+      t606, t607, t607}));
+  const detail::Lanes<4, Real> g20 = {state.z[8], state.z[11], state.z[14], state.z[17]};
+  const detail::Lanes<4, Real> front_foot1v3_x = g20 * front_foot1x_y;
+  const detail::Lanes<4, Real> front_foot1v3_y = g20 * front_foot1x_x;
+  const detail::Lanes<4, Real> g18 = {state.z[7], state.z[10], state.z[13], state.z[16]};
+  const detail::Lanes<4, Real> front_foot1v2_x = front_foot1v3_x + g18 * front_foot1x3_y;
+  const detail::Lanes<4, Real> front_foot1v2p_x = s1s_3 * front_foot1v2_x;
   const detail::Lanes<4, Real> front_foot1v2p_y = c1s * front_foot1v2_x;
-  const Real vrel0_x = q0r1_x * state.z[1] - (q0r0_x * state.z[0] - q0r2_x * state.z[2]);
+  const Real vrel0_x = q0r0_x * state.z[0] - (q0r1_x * state.z[1] + q0r2_x * state.z[2]);
   const Real vrel0_y = q0r1_y * state.z[1] - (q0r0_y * state.z[0] + q0r2_y * state.z[2]);
-  const Real vrel0_z = q0r1_z * state.z[1] + (q0r0_z * state.z[0] - q0r2_z * state.z[2]);
-  const Real t627 = -state.z[4];
-  const Real t632 = -state.z[5];
-  const detail::Lanes<4, Real> g16 = {state.z[4], t627, state.z[4], t627};
-  const detail::Lanes<4, Real> g17 = {state.z[5], t632, state.z[5], t632};
-  const detail::Lanes<4, Real> front_foot1v0_x = vrel0_x + (front_foot1v3_y - (g19 * front_foot1x3_x - (g16 *
-      front_foot1x2_y - g17 * front_foot1x1p_y)));
-  const Real t661 = -vrel0_y;
-  const detail::Lanes<4, Real> front_foot1v0_y = detail::Lanes<4, Real>{vrel0_y, t661, vrel0_y, t661} +
-      (front_foot1v2p_x - (g17 * front_foot1x2p_z - w1_z * front_foot1x2_y));
-  const Real t674 = -state.z[3];
-  const detail::Lanes<4, Real> g15 = {state.z[6], t473, state.z[12], t474};
-  const detail::Lanes<4, Real> front_foot1v0_z = vrel0_z + (front_foot1v2p_y + (g15 * front_foot1x2_x +
-      (detail::Lanes<4, Real>{state.z[3], t674, state.z[3], t674} * front_foot1x1p_y - state.z[4] *
-      front_foot1x2p_z)));
-  const detail::Lanes<4, Real> front_foot1v0pp_z = detail::Lanes<4, Real>{q0r2_y, q0r2_y, t561, q0r2_y} *
-      front_foot1v0_y - (detail::Lanes<4, Real>{q0r2_x, t556, t556, t556} * front_foot1v0_x - detail::Lanes<4,
-      Real>{q0r2_z, t566, t566, t566} * front_foot1v0_z);
+  const Real vrel0_z = q0r2_z * state.z[2] - (q0r0_z * state.z[0] + q0r1_z * state.z[1]);
+  const Real t670 = -state.z[4];
+  const Real t675 = -state.z[5];
+  const detail::Lanes<4, Real> g16 = {state.z[5], t675, state.z[5], t675};
+  const detail::Lanes<4, Real> g15 = {state.z[4], t670, state.z[4], t670};
+  const detail::Lanes<4, Real> front_foot1v0_x = g16 * front_foot1x1p_y - (g15 * front_foot1x2_y - (g18 *
+      front_foot1x3_x - (front_foot1v3_y - vrel0_x)));
+  const Real t704 = -vrel0_y;
+  const detail::Lanes<4, Real> front_foot1v0_y = detail::Lanes<4, Real>{vrel0_y, t704, vrel0_y, t704} - g16 *
+      front_foot1x2p_z + (front_foot1v2p_x + w1_z * front_foot1x2_y);
+  const Real t717 = -state.z[3];
+  const detail::Lanes<4, Real> g13 = {state.z[6], t507, state.z[12], t508};
+  const detail::Lanes<4, Real> front_foot1v0_z = front_foot1v2p_y + g13 * front_foot1x2_x + (detail::Lanes<4,
+      Real>{state.z[3], t717, state.z[3], t717} * front_foot1x1p_y - (vrel0_z + state.z[4] *
+      front_foot1x2p_z));
+  const detail::Lanes<4, Real> front_foot1v0pp_z = detail::Lanes<4, Real>{q0r2_z, t599, q0r2_z, t599} *
+      front_foot1v0_z + (detail::Lanes<4, Real>{q0r2_x, t589, q0r2_x, t589} * front_foot1v0_x + q0r2_y *
+      front_foot1v0_y);
   const detail::Lanes<4, Real> expression_2 = front_foot1v0pp_z * detail::Lanes<4, Real>{Real(5.0),
-      Real(-5.0), Real(-5.0), Real(-5.0)};
+      Real(-5.0), Real(5.0), Real(-5.0)};
   const detail::Lanes<4, Real> expression_3 = Real(1.0) + expression_2;
-  const Real expression_4 = state.z[18] * Real(2000.0);
-  const Real t732 = -q0r0_x;
-  const Real t742 = -q0r0_z;
-  const detail::Lanes<4, Real> spin_front_foot1_2_x = c1s_5 * w3_z + s1s * w2pp_y;
-  const detail::Lanes<4, Real> spin_front_foot1_2_y = c1s * w2pp_y - s1s_4 * w3_z;
-  const detail::Lanes<4, Real> spin_front_foot1_0p_y = q0r1_y * spin_front_foot1_2_x - (q0r1_x * w1_z - q0r1_z
-      * spin_front_foot1_2_y);
-  const detail::Lanes<4, Real> expression_5 = detail::Lanes<4, Real>{Real(0.02), Real(-0.02), Real(-0.02),
+  const Real t773 = -model.ground;
+  const detail::Lanes<4, Real> expression_4 = expression_3 * (expression * detail::Lanes<4,
+      Real>{model.ground, t773, t773, model.ground});
+  const Real expression_5 = detail::larger(-expression_4[0], Real(0.0));
+  const Real expression_6 = detail::where_negative(expression[0], expression_5);
+  const Real expression_7 = state.z[18] * Real(2000.0);
+  const Real t789 = -q0r0_x;
+  const Real t798 = -q0r0_z;
+  const detail::Lanes<4, Real> spin_front_foot1_2_x = c1s_2 * w3_z + s1s * w2pp_y;
+  const detail::Lanes<4, Real> spin_front_foot1_2_y = c1s * w2pp_y - s1s_3 * w3_z;
+  const detail::Lanes<4, Real> spin_front_foot1_0p_y = q0r1_z * spin_front_foot1_2_y - (q0r1_x * w1_z - q0r1_y
+      * spin_front_foot1_2_x);
+  const detail::Lanes<4, Real> expression_8 = detail::Lanes<4, Real>{Real(0.02), Real(-0.02), Real(0.02),
       Real(-0.02)} * spin_front_foot1_0p_y;
-  const detail::Lanes<4, Real> expression_6 = detail::Lanes<4, Real>{q0r0_y, q0r0_y, -q0r0_y, q0r0_y} *
-      front_foot1v0_y + (detail::Lanes<4, Real>{q0r0_x, t732, t732, t732} * front_foot1v0_x -
-      (detail::Lanes<4, Real>{q0r0_z, t742, t742, t742} * front_foot1v0_z + expression_5));
-  const detail::Lanes<4, Real> expression_7 = expression_6 * expression_6;
-  const Real t812 = -q0r1_x;
-  const Real t822 = -q0r1_z;
-  const detail::Lanes<4, Real> spin_front_foot1_0p_x = q0r0_y * spin_front_foot1_2_x - (q0r0_x * w1_z + q0r0_z
-      * spin_front_foot1_2_y);
-  const detail::Lanes<4, Real> expression_8 = detail::Lanes<4, Real>{Real(0.02), Real(-0.02), Real(-0.02),
-      Real(-0.02)} * spin_front_foot1_0p_x;
-  const detail::Lanes<4, Real> expression_9 = detail::Lanes<4, Real>{q0r1_y, q0r1_y, -q0r1_y, q0r1_y} *
-      front_foot1v0_y + (detail::Lanes<4, Real>{q0r1_x, t812, t812, t812} * front_foot1v0_x +
-      (detail::Lanes<4, Real>{q0r1_z, t822, t822, t822} * front_foot1v0_z + expression_8));
+  const detail::Lanes<4, Real> q0r0_xs = {q0r0_x, t789, q0r0_x, t789};
+  const detail::Lanes<4, Real> expression_9 = q0r0_xs * front_foot1v0_x - q0r0_y * front_foot1v0_y +
+      (detail::Lanes<4, Real>{q0r0_z, t798, q0r0_z, t798} * front_foot1v0_z + expression_8);
   const detail::Lanes<4, Real> expression_10 = expression_9 * expression_9;
-  const detail::Lanes<4, Real> expression_11 = expression_10 + (expression_7 + Real(1.0000000000000001e-16));
-  const Real expression_12 = detail::square_root(expression_11[0]);
-  const Real expression_13 = Real(2000.0) * state.z[19];
-  const Real t879 = state.y[2] - Real(0.02);
-  const detail::Lanes<2, Real> expression_14 = t879 - (detail::Lanes<2, Real>{t557[2], t557[3]} -
-      (detail::Lanes<2, Real>{t562[2], t562[3]} - detail::Lanes<2, Real>{t567[2], t567[3]}));
-  const Real expression_15 = Real(2000.0) * state.z[20];
-  const Real expression_16 = detail::square_root(expression_11[2]);
-  const Real expression_17 = Real(2000.0) * state.z[21];
-  const Real expression_18 = t557[1] + (t879 - (t562[1] - t567[1]));
-  const detail::Lanes<4, Real> expression_19 = detail::Lanes<4, Real>{expression, expression_18,
-      expression_14[0], expression_14[1]} * expression_3 * detail::Lanes<4, Real>{model.ground, model.ground,
-      model.ground, -model.ground};
-  const Real expression_20 = detail::larger(-expression_19[0], Real(0.0));
-  const Real expression_21 = detail::where_negative(expression, expression_20);
-  const Real expression_22 = detail::larger(-expression_19[2], Real(0.0));
-  const Real expression_23 = detail::where_negative(expression_14[0], expression_22);
-  const Real expression_24 = detail::larger(-expression_19[1], Real(0.0));
-  const Real expression_25 = detail::where_negative(expression_18, expression_24);
-  const detail::Lanes<2, Real> expression_21s = {expression_21, expression_25};
-  const detail::Lanes<2, Real> t917 = q0r2_x * expression_21s;
-  const detail::Lanes<2, Real> t919 = q0r2_y * expression_21s;
-  const detail::Lanes<2, Real> t921 = q0r2_z * expression_21s;
-  const Real expression_26 = Real(2000.0) * state.z[22];
-  const Real expression_27 = detail::square_root(expression_11[1]);
-  const Real expression_28 = Real(2000.0) * state.z[23];
-  const Real expression_29 = detail::larger(expression_19[3], Real(0.0));
-  const Real expression_30 = detail::where_negative(expression_14[1], expression_29);
-  const Real expression_31 = Real(2000.0) * state.z[24];
-  const Real expression_32 = detail::square_root(expression_11[3]);
-  const detail::Lanes<4, Real> expression_12s = {expression_12, expression_27, expression_16, expression_32};
-  const detail::Lanes<4, Real> expression_33 = detail::Lanes<4, Real>{expression_4, -expression_26,
-      -expression_15, -expression_31} * expression_12s * model.c4;
-  const detail::Lanes<4, Real> expression_34 = expression_6 + expression_33;
-  const detail::Lanes<4, Real> expression_35 = expression_34 * detail::Lanes<4, Real>{Real(10.0), Real(-10.0),
-      Real(-10.0), Real(-10.0)};
-  const detail::Lanes<4, Real> expression_36 = detail::Lanes<4, Real>{expression_4, expression_26,
-      expression_15, expression_31} - expression_35;
-  const detail::Lanes<4, Real> expression_21s_2 = {expression_21, expression_25, expression_23,
-      expression_30};
-  const detail::Lanes<4, Real> expression_37 = expression_21s_2 * expression_36;
-  const detail::Lanes<4, Real> expression_38 = Real(0.02) * expression_37;
-  const Real expression_39 = Real(2000.0) * state.z[25];
-  const Real t993 = -model.c4;
-  const detail::Lanes<4, Real> expression_13s = {expression_13, expression_28, expression_17, expression_39};
-  const detail::Lanes<4, Real> expression_40 = detail::Lanes<4, Real>{model.c4, t993, t993, t993} *
-      (expression_12s * expression_13s);
-  const detail::Lanes<4, Real> expression_41 = expression_9 - expression_40;
-  const detail::Lanes<4, Real> expression_42 = detail::Lanes<4, Real>{Real(10.0), Real(-10.0), Real(-10.0),
-      Real(-10.0)} * expression_41;
-  const detail::Lanes<4, Real> expression_43 = expression_13s + expression_42;
-  const detail::Lanes<4, Real> expression_44 = expression_21s_2 * expression_43;
-  const detail::Lanes<4, Real> expression_45 = Real(0.02) * expression_44;
-  const detail::Lanes<4, Real> front_sole1n0_y = q0r0_y * expression_45 + q0r1_y * expression_38;
-  const detail::Lanes<4, Real> front_sole1n0_z = q0r0_z * expression_45 - q0r1_z * expression_38;
-  const detail::Lanes<4, Real> t1062 = c1s_2 * front_sole1n0_z;
-  const detail::Lanes<4, Real> s1s_2 = {s1, s4, s7, t310};
-  const detail::Lanes<4, Real> t1066 = s1s_2 * front_sole1n0_y;
-  const detail::Lanes<4, Real> front_sole1f0_x = q0r1_x * expression_44 - (q0r0_x * expression_37 +
-      detail::Lanes<4, Real>{t917[0], t917[1], q0r2_x * expression_23, q0r2_x * expression_30});
-  const detail::Lanes<4, Real> t1079 = Real(0.062) * front_sole1f0_x;
-  const detail::Lanes<4, Real> front_sole1f0_y = q0r1_y * expression_44 - (q0r0_y * expression_37 -
-      detail::Lanes<4, Real>{t919[0], t919[1], q0r2_y * expression_23, q0r2_y * expression_30});
-  const detail::Lanes<4, Real> front_sole1f0_z = q0r1_z * expression_44 + (q0r0_z * expression_37 +
-      detail::Lanes<4, Real>{t921[0], t921[1], q0r2_z * expression_23, q0r2_z * expression_30});
-  const detail::Lanes<4, Real> front_sole1f2p_x = c1s_5 * front_sole1f0_y - s1s_4 * front_sole1f0_z;
+  const Real t868 = -q0r1_x;
+  const Real t877 = -q0r1_z;
+  const detail::Lanes<4, Real> spin_front_foot1_0p_x = q0r0_z * spin_front_foot1_2_y + (q0r0_x * w1_z - q0r0_y
+      * spin_front_foot1_2_x);
+  const detail::Lanes<4, Real> expression_11 = detail::Lanes<4, Real>{Real(0.02), Real(-0.02), Real(0.02),
+      Real(-0.02)} * spin_front_foot1_0p_x;
+  const detail::Lanes<4, Real> q0r1_xs = {q0r1_x, t868, q0r1_x, t868};
+  const detail::Lanes<4, Real> expression_12 = q0r1_xs * front_foot1v0_x - q0r1_y * front_foot1v0_y -
+      (detail::Lanes<4, Real>{q0r1_z, t877, q0r1_z, t877} * front_foot1v0_z - expression_11);
+  const detail::Lanes<4, Real> expression_13 = expression_12 * expression_12;
+  const detail::Lanes<4, Real> expression_14 = expression_13 + (expression_10 + Real(1.0000000000000001e-16));
+  const Real expression_15 = detail::square_root(expression_14[0]);
+  const Real expression_16 = Real(2000.0) * state.z[19];
+  const Real expression_17 = detail::larger(-expression_4[2], Real(0.0));
+  const Real expression_18 = detail::where_negative(-expression[2], expression_17);
+  const Real expression_19 = Real(2000.0) * state.z[20];
+  const Real expression_20 = detail::square_root(expression_14[2]);
+  const Real expression_21 = Real(2000.0) * state.z[21];
+  const Real expression_22 = detail::larger(expression_4[1], Real(0.0));
+  const Real expression_23 = detail::where_negative(expression[1], expression_22);
+  const Real expression_24 = Real(2000.0) * state.z[22];
+  const Real expression_25 = detail::square_root(expression_14[1]);
+  const Real expression_26 = Real(2000.0) * state.z[23];
+  const Real expression_27 = detail::larger(expression_4[3], Real(0.0));
+  const Real expression_28 = detail::where_negative(-expression[3], expression_27);
+  const Real expression_29 = Real(2000.0) * state.z[24];
+  const Real expression_30 = detail::square_root(expression_14[3]);
+  const Real t966 = -expression_25;
+  const Real t967 = -expression_30;
+  const detail::Lanes<4, Real> expression_15s = {expression_15, t966, expression_20, t967};
+  const detail::Lanes<4, Real> expression_31 = expression_15s * (detail::Lanes<4, Real>{expression_7,
+      expression_24, expression_19, expression_29} * model.c4);
+  const detail::Lanes<4, Real> expression_32 = expression_9 - expression_31;
+  const detail::Lanes<4, Real> expression_33 = expression_32 * Real(10.0);
+  const detail::Lanes<4, Real> expression_34 = detail::Lanes<4, Real>{expression_7, -expression_24,
+      expression_19, -expression_29} + expression_33;
+  const Real t991 = -expression_23;
+  const Real t992 = -expression_28;
+  const detail::Lanes<4, Real> expression_6s = {expression_6, t991, expression_18, t992};
+  const detail::Lanes<4, Real> expression_35 = expression_6s * expression_34;
+  const detail::Lanes<4, Real> expression_36 = Real(0.02) * expression_35;
+  const Real expression_37 = Real(2000.0) * state.z[25];
+  const detail::Lanes<4, Real> expression_38 = expression_15s * (model.c4 * detail::Lanes<4,
+      Real>{expression_16, expression_26, expression_21, expression_37});
+  const detail::Lanes<4, Real> expression_39 = expression_12 + expression_38;
+  const detail::Lanes<4, Real> expression_40 = Real(10.0) * expression_39;
+  const detail::Lanes<4, Real> expression_41 = detail::Lanes<4, Real>{expression_16, -expression_26,
+      expression_21, -expression_37} - expression_40;
+  const detail::Lanes<4, Real> expression_42 = expression_6s * expression_41;
+  const detail::Lanes<4, Real> expression_43 = Real(0.02) * expression_42;
+  const detail::Lanes<4, Real> front_sole1n0_y = q0r0_y * expression_43 + q0r1_y * expression_36;
+  const detail::Lanes<4, Real> front_sole1n0_z = q0r0_z * expression_43 - q0r1_z * expression_36;
+  const detail::Lanes<4, Real> t1097 = detail::Lanes<4, Real>{c1, c4, c7, t333} * front_sole1n0_z;
+  const detail::Lanes<4, Real> t1101 = detail::Lanes<4, Real>{s1, s4, s7, t306} * front_sole1n0_y;
+  const detail::Lanes<4, Real> front_sole1f0_x = q0r1_x * expression_42 - (q0r0_x * expression_35 +
+      detail::Lanes<4, Real>{q0r2_x * expression_6, q0r2_x * expression_23, q0r2_x * expression_18, q0r2_x *
+      expression_28});
+  const detail::Lanes<4, Real> t1114 = Real(0.062) * front_sole1f0_x;
+  const detail::Lanes<4, Real> front_sole1f0_y = q0r1_y * expression_42 - (q0r0_y * expression_35 -
+      detail::Lanes<4, Real>{q0r2_y * expression_6, q0r2_y * expression_23, q0r2_y * expression_18, q0r2_y *
+      expression_28});
+  const detail::Lanes<4, Real> front_sole1f0_z = q0r1_z * expression_42 + (q0r0_z * expression_35 +
+      detail::Lanes<4, Real>{q0r2_z * expression_6, q0r2_z * expression_23, q0r2_z * expression_18, q0r2_z *
+      expression_28});
+  const detail::Lanes<4, Real> front_sole1f2p_x = c1s_2 * front_sole1f0_y - s1s_3 * front_sole1f0_z;
   const detail::Lanes<4, Real> front_sole1f2p_y = c1s * front_sole1f0_z + s1s * front_sole1f0_y;
-  const detail::Lanes<4, Real> t1129 = front_foot1x_y * front_sole1f2p_x;
-  const detail::Lanes<4, Real> front_sole1m_z = s1s * front_sole1n0_z + (c1s * front_sole1n0_y +
-      (front_foot1x_x * front_sole1f0_x + front_foot1x_y * front_sole1f2p_y));
+  const detail::Lanes<4, Real> t1164 = front_foot1x_y * front_sole1f2p_x;
+  const detail::Lanes<4, Real> front_sole1m_z = front_foot1x_y * front_sole1f2p_y + (front_foot1x_x *
+      front_sole1f0_x + (c1s * front_sole1n0_y + s1s * front_sole1n0_z));
+  const Real bSu0_x = S1c_xy * state.z[4] - (S1c_xx * state.z[3] - S1c_xz * state.z[5]);
+  const Real bSu0_y = S1c_yz * state.z[5] - (S1c_xy * state.z[3] - S1c_yy * state.z[4]);
+  const Real bSu0_z = S1c_xz * state.z[3] - S1c_yz * state.z[4] - S1c_zz * state.z[5];
+  const Real buh0 = h1c_z * state.z[5] + (h1c_x * state.z[3] + h1c_y * state.z[4]);
   const Real bL0w00 = state.z[3] * state.z[3];
   const Real bL0w22 = state.z[5] * state.z[5];
   const Real bL0U1_y = bL0w00 + bL0w22;
   const Real buw0 = state.z[4] * state.z[4] + bL0U1_y;
-  const Real bL0w01 = state.z[3] * state.z[4];
-  const Real bL0w12 = state.z[4] * state.z[5];
-  const Real ba1o_x = Real(0.05) * bL0w01;
+  const Real ba1o_x = state.z[4] * (Real(0.05) * state.z[3]);
   const Real ba1o_y = Real(0.05) * bL0U1_y;
-  const Real ba1o_z = Real(0.05) * bL0w12;
-  const detail::Lanes<4, Real> g18 = {state.z[5], t632, t632, t632};
-  const detail::Lanes<4, Real> bKx1 = S1b_xx * detail::Lanes<4, Real>{state.z[4], state.z[4], t627,
-      state.z[4]} + (S1b_xz * detail::Lanes<4, Real>{state.z[3], t674, state.z[3], state.z[3]} - S1b_xy *
-      g18);
-  const detail::Lanes<4, Real> bKy1 = S1b_xy * g16 - (S1b_yz * state.z[3] + S1b_yy * state.z[5]);
-  const Real t1221 = -ba1o_z;
-  const detail::Lanes<4, Real> z2_1 = Real(2.0) * g14;
-  const detail::Lanes<4, Real> zz_1 = g14 * g14;
-  const detail::Lanes<4, Real> zw_1 = g14 * (state.z[3] + w1_z);
-  const detail::Lanes<4, Real> bax1 = h1b_x * detail::Lanes<4, Real>{state.z[4], t627, t627, t627} + h1b_y *
-      detail::Lanes<4, Real>{state.z[5], state.z[5], state.z[5], t632};
+  const Real ba1o_z = state.z[5] * (Real(0.05) * state.z[4]);
+  const detail::Lanes<4, Real> g17 = {state.z[5], t675, t675, t675};
+  const detail::Lanes<4, Real> g14 = {state.z[4], state.z[4], t670, state.z[4]};
+  const detail::Lanes<4, Real> bKx1 = S1b_xy * g17 - (S1b_xz * state.z[3] + S1b_xx * g14);
+  const detail::Lanes<4, Real> bKy1 = S1b_yy * state.z[5] - (S1b_yz * state.z[3] + S1b_xy * g15);
+  const Real t1282 = -ba1o_z;
+  const Real t1287 = -ba1o_y;
+  const detail::Lanes<4, Real> z2_1 = detail::Lanes<4, Real>{Real(2.0), Real(-2.0), Real(-2.0), Real(-2.0)} *
+      g12;
+  const detail::Lanes<4, Real> zz_1 = detail::Lanes<4, Real>{state.z[6], t507, -state.z[12], t508} * g12;
+  const detail::Lanes<4, Real> zw_1 = g13 * (state.z[3] + w1_z);
+  const detail::Lanes<4, Real> bax1 = h1b_x * g14 + h1b_y * detail::Lanes<4, Real>{state.z[5], state.z[5],
+      t675, state.z[5]};
   const detail::Lanes<4, Real> bdf1_x = h1b_x * zw_1;
   const detail::Lanes<4, Real> bdf1_y = h1b_y * zw_1;
   const detail::Lanes<4, Real> bdf1_z = z2_1 * bax1;
-  const detail::Lanes<4, Real> t1271 = S1b_yz * zz_1;
-  const detail::Lanes<4, Real> t1275 = bKy1 * z2_1;
-  const detail::Lanes<4, Real> t1279 = S1b_xz * zz_1;
-  const detail::Lanes<4, Real> t1283 = bKx1 * z2_1;
-  const detail::Lanes<4, Real> bal2p_x = g14 * w2pp_y;
-  const detail::Lanes<4, Real> bal2p_y = g14 * w2pp_x;
+  const detail::Lanes<4, Real> bal2p_x = g12 * w2pp_y;
+  const detail::Lanes<4, Real> bal2p_y = g12 * w2pp_x;
   const Real bL1w00 = w2pp_x[0] * w2pp_x[0];
   const detail::Lanes<4, Real> bL1w11 = w2pp_y * w2pp_y;
   const detail::Lanes<4, Real> bL1w12 = w1_z * w2pp_y;
   const detail::Lanes<4, Real> bL1U1_z = bal2p_x - bL1w12;
-  const detail::Lanes<4, Real> ba2o_y = s1s_4 * ba1o_y + (c1s_5 * ba1o_z + detail::Lanes<4, Real>{Real(0.19),
-      Real(0.19), Real(-0.19), Real(-0.19)} * bL1U1_z);
-  const detail::Lanes<4, Real> bKx2 = S2_xy * w1_z + (S2_xx * w2pp_y + S2_xz * w2pp_x);
-  const detail::Lanes<4, Real> bKy2 = S2_yz * w2pp_x + (S2_xy * w2pp_y - S2_yy * w1_z);
+  const Real bL1U2_z = bL1w00 + bL1w11[0];
+  const detail::Lanes<4, Real> ba2o_y = detail::Lanes<4, Real>{Real(0.19), Real(0.19), Real(-0.19),
+      Real(-0.19)} * bL1U1_z + (c1s_2 * ba1o_z + s1s_3 * ba1o_y);
+  const Real t1392 = Real(0.19) * bL1U2_z;
+  const detail::Lanes<4, Real> bKx2 = S2_xy * w1_z + (S2_xx * w2pp_y - S2_xz * w2pp_x);
+  const detail::Lanes<4, Real> bKy2 = S2_yy * w1_z + (S2_xy * w2pp_y - S2_yz * w2pp_x);
   const detail::Lanes<4, Real> z2_2 = detail::Lanes<4, Real>{Real(2.0), Real(-2.0), Real(2.0), Real(-2.0)} *
-      g19;
-  const detail::Lanes<4, Real> zz_2 = g19 * g19;
-  const detail::Lanes<4, Real> zw_2 = g20 * (w2pp_x + w2_z);
+      g18;
+  const detail::Lanes<4, Real> zz_2 = g18 * g18;
+  const detail::Lanes<4, Real> zw_2 = g19 * (w2pp_x + w2_z);
   const detail::Lanes<4, Real> bax2 = h2_x * w2pp_y + h2_y * w1_z;
   const detail::Lanes<4, Real> bdf2_x = h2_x * zw_2;
   const detail::Lanes<4, Real> bdf2_y = h2_y * zw_2;
   const detail::Lanes<4, Real> bdf2_z = z2_2 * bax2;
-  const detail::Lanes<4, Real> t1429 = S2_yz * zz_2;
-  const detail::Lanes<4, Real> t1433 = bKy2 * z2_2;
-  const detail::Lanes<4, Real> bal2o_x = bal2p_y - w1_z * g20;
+  const detail::Lanes<4, Real> t1493 = S2_yz * zz_2;
+  const detail::Lanes<4, Real> t1497 = bKy2 * z2_2;
+  const detail::Lanes<4, Real> bal2o_x = bal2p_y - w1_z * g19;
   const detail::Lanes<4, Real> bW2w11 = w1_z * w1_z;
   const detail::Lanes<4, Real> bW2w22 = w2_z * w2_z;
-  const detail::Lanes<4, Real> bL1U2_z = detail::Lanes<4, Real>{bL1w00, bW2w22[1], bW2w22[2], bW2w22[3]} +
-      bL1w11;
-  const Real t1465 = Real(0.19) * bL1U2_z[0];
   const detail::Lanes<4, Real> bW2U0_x = bW2w11 + bW2w22;
   const detail::Lanes<4, Real> bW2U1_x = bal2p_x + bL1w12;
   const Real bW2U1_y = bL1w11[0] + bW2w22[0];
   const detail::Lanes<4, Real> ba3o_x = r3_x * bW2U0_x + (ba2o_y - r3_y * bL1U1_z);
-  const detail::Lanes<4, Real> t1491 = r3_x * bW2U1_x;
-  const detail::Lanes<4, Real> bKx3 = S3b_xy * w1_z + (S3b_xx * w2pp_y - S3b_xz * w2_z);
-  const detail::Lanes<4, Real> bKy3 = S3b_yz * w2_z - (S3b_xy * w2pp_y + S3b_yy * w1_z);
+  const detail::Lanes<4, Real> t1550 = r3_x * bW2U1_x;
+  const detail::Lanes<4, Real> bKx3 = S3b_xx * w2pp_y + (S3b_xy * w1_z - S3b_xz * w2_z);
+  const detail::Lanes<4, Real> bKy3 = S3b_yy * w1_z + (S3b_xy * w2pp_y - S3b_yz * w2_z);
   const detail::Lanes<4, Real> z2_3 = detail::Lanes<4, Real>{Real(2.0), Real(-2.0), Real(2.0), Real(-2.0)} *
-      g21;
-  const detail::Lanes<4, Real> zz_3 = g21 * g21;
-  const detail::Lanes<4, Real> zw_3 = g22 * (w2_z + w3_z);
+      g20;
+  const detail::Lanes<4, Real> zz_3 = g20 * g20;
+  const detail::Lanes<4, Real> zw_3 = g21 * (w2_z + w3_z);
   const detail::Lanes<4, Real> bax3 = h3b_x * w2pp_y + h3b_y * w1_z;
   const detail::Lanes<4, Real> bdf3_x = h3b_x * zw_3;
   const detail::Lanes<4, Real> bdf3_y = h3b_y * zw_3;
   const detail::Lanes<4, Real> bdf3_z = z2_3 * bax3;
-  const detail::Lanes<4, Real> t1603 = S3b_yz * zz_3;
-  const detail::Lanes<4, Real> t1607 = bKy3 * z2_3;
-  const detail::Lanes<2, Real> ba5o_z = detail::Lanes<2, Real>{ba1o_x, -ba1o_x} + t1465;
-  const Real ba6o_y = t1491[1] - (ba5o_z[0] - r3_y[1] * bL1U2_z[1]);
-  const detail::Lanes<2, Real> ba9o_y = detail::Lanes<2, Real>{t1491[2], t1491[3]} + (ba5o_z +
-      detail::Lanes<2, Real>{r3_y[2], r3_y[3]} * detail::Lanes<2, Real>{bL1U2_z[2], bL1U2_z[3]});
+  const detail::Lanes<4, Real> t1663 = S3b_yz * zz_3;
+  const detail::Lanes<4, Real> t1667 = bKy3 * z2_3;
+  const detail::Lanes<2, Real> ba5o_z = detail::Lanes<2, Real>{ba1o_x, -ba1o_x} + t1392;
+  const Real ba3o_y = r3_y[0] * bW2U1_y + (t1550[0] - ba5o_z[1]);
+  const Real bW5U1_y = bL1w11[1] + bW2w22[1];
+  const Real ba6o_y = r3_y[1] * bW5U1_y - (ba5o_z[0] - t1550[1]);
+  const Real bW8U1_y = bL1w11[2] + bW2w22[2];
+  const Real bW11U1_y = bL1w11[3] + bW2w22[3];
+  const detail::Lanes<2, Real> ba9o_y = detail::Lanes<2, Real>{r3_y[2], r3_y[3]} * detail::Lanes<2,
+      Real>{bW8U1_y, bW11U1_y} + (ba5o_z + detail::Lanes<2, Real>{t1550[2], t1550[3]});
   const detail::Lanes<4, Real> bef3_x = front_sole1f2p_y - bdf3_x;
   const detail::Lanes<4, Real> bef3_y = front_sole1f0_x + bdf3_y;
   const detail::Lanes<4, Real> bef3_z = front_sole1f2p_x + bdf3_z;
-  const detail::Lanes<4, Real> t1650 = detail::Lanes<4, Real>{r3_y[0], -r3_y[1], r3_y[2], r3_y[3]} *
-      detail::Lanes<4, Real>{bW2U1_y, bef3_z[1], bef3_z[2], bef3_z[3]};
-  const Real ba3o_y = t1491[0] + (t1650[0] - ba5o_z[1]);
   const detail::Lanes<4, Real> bf3c_x = bdf2_x - bef3_x;
   const detail::Lanes<4, Real> bf3c_z = bdf2_z + bef3_z;
-  const detail::Lanes<4, Real> bn3c_y = detail::Lanes<4, Real>{q0r1_x, t812, q0r1_x, t812} * expression_38 +
-      (detail::Lanes<4, Real>{q0r0_x, t732, q0r0_x, t732} * expression_45 - (Real(0.062) * front_sole1f2p_y +
-      (front_foot1x_x * front_sole1f2p_x - (S3b_xz * zz_3 - (bKx3 * z2_3 - (S2_xz * zz_2 + (bKx2 * z2_2 + r3_x
-      * bef3_z)))))));
-  const detail::Lanes<4, Real> bn3c_z = r3_x * bef3_y - (front_sole1m_z + r3_y * bef3_x);
-  const detail::Lanes<4, Real> bn2c_x = bn3c_z - detail::Lanes<4, Real>{Real(0.19), Real(0.19), Real(-0.19),
+  const detail::Lanes<4, Real> bn3c_y = Real(0.062) * front_sole1f2p_y - (q0r1_xs * expression_36 + (q0r0_xs *
+      expression_43 - (bKx2 * z2_2 + (bKx3 * z2_3 - (S2_xz * zz_2 + S3b_xz * zz_3))))) + (front_foot1x_x *
+      front_sole1f2p_x - r3_x * bef3_z);
+  const detail::Lanes<4, Real> bn3c_z = r3_y * bef3_x + (front_sole1m_z - r3_x * bef3_y);
+  const detail::Lanes<4, Real> bn2c_x = bn3c_z + detail::Lanes<4, Real>{Real(0.19), Real(0.19), Real(-0.19),
       Real(-0.19)} * bf3c_x;
-  const detail::Lanes<4, Real> t1729 = detail::Lanes<4, Real>{Real(0.19), Real(-0.19), Real(0.19), Real(0.19)}
+  const detail::Lanes<4, Real> t1798 = detail::Lanes<4, Real>{Real(0.19), Real(-0.19), Real(0.19), Real(0.19)}
       * bf3c_z;
-  const detail::Lanes<2, Real> bn8c_y = detail::Lanes<2, Real>{t1066[2], t1066[3]} - (detail::Lanes<2,
-      Real>{t1062[2], t1062[3]} - (detail::Lanes<2, Real>{t1079[2], t1079[3]} - (detail::Lanes<2,
-      Real>{t1129[2], t1129[3]} - (detail::Lanes<2, Real>{t1603[2], t1603[3]} + (detail::Lanes<2,
-      Real>{t1607[2], t1607[3]} + (detail::Lanes<2, Real>{t1429[2], t1429[3]} + (detail::Lanes<2,
-      Real>{t1433[2], t1433[3]} - (detail::Lanes<2, Real>{t1650[2], t1650[3]} + detail::Lanes<2,
-      Real>{t1729[2], t1729[3]}))))))));
-  const Real bn5c_y = t1066[1] - (t1062[1] + (t1079[1] + (t1603[1] + (t1607[1] + (t1429[1] + (t1433[1] +
-      (t1650[1] - t1729[1])))) - t1129[1])));
-  const Real bn2c_y = t1066[0] - (t1062[0] - (t1079[0] - (t1129[0] - (t1603[0] + (t1607[0] + (t1429[0] +
-      (t1433[0] - (r3_y[0] * bef3_z[0] - t1729[0]))))))));
-  const detail::Lanes<4, Real> t1769 = c1s_5 * bf3c_z;
-  const detail::Lanes<4, Real> t1773 = s1s * bf3c_x;
-  const detail::Lanes<4, Real> s1s_3 = {s1, t309, s7, s10};
-  const detail::Lanes<4, Real> bf1_y = c1s_2 * bf3c_x + (bdf1_y + s1s_3 * bf3c_z);
-  const detail::Lanes<4, Real> bf1_z = bdf2_y + (bdf1_z + bef3_y);
-  const detail::Lanes<4, Real> t1801 = c1s * bn2c_x;
-  const detail::Lanes<4, Real> bn2c_ys = {bn2c_y, bn5c_y, bn8c_y[0], bn8c_y[1]};
-  const detail::Lanes<4, Real> t1805 = s1s_2 * bn2c_ys;
-  const detail::Lanes<4, Real> t1809 = c1s_2 * bn2c_ys;
-  const detail::Lanes<4, Real> t1813 = s1s * bn2c_x;
-  const detail::Lanes<4, Real> b_8 = g21 * model.calm + (model.hold * stretch3 - (detail::Lanes<4,
-      Real>{input.u[2], input.u[5], input.u[8], input.u[11]} - (front_sole1m_z - (detail::Lanes<4,
+  const detail::Lanes<2, Real> bn8c_y = detail::Lanes<2, Real>{t1798[2], t1798[3]} + (detail::Lanes<2,
+      Real>{r3_y[2] * bef3_z[2], r3_y[3] * bef3_z[3]} + (detail::Lanes<2, Real>{t1164[2], t1164[3]} +
+      (detail::Lanes<2, Real>{t1097[2], t1097[3]} + (detail::Lanes<2, Real>{t1497[2], t1497[3]} +
+      (detail::Lanes<2, Real>{t1667[2], t1667[3]} - (detail::Lanes<2, Real>{t1493[2], t1493[3]} +
+      detail::Lanes<2, Real>{t1663[2], t1663[3]}))) - (detail::Lanes<2, Real>{t1101[2], t1101[3]} +
+      detail::Lanes<2, Real>{t1114[2], t1114[3]}))));
+  const Real bn5c_y = t1798[1] - (t1097[1] + (t1493[1] + t1663[1] - t1667[1] - t1497[1]) - (t1101[1] -
+      t1114[1]) - t1164[1] - r3_y[1] * bef3_z[1]);
+  const Real bn2c_y = t1798[0] - (r3_y[0] * bef3_z[0] + (t1164[0] + (t1097[0] + (t1497[0] + (t1667[0] -
+      (t1493[0] + t1663[0]))) - (t1101[0] + t1114[0]))));
+  const detail::Lanes<4, Real> b_8 = front_sole1m_z + (h3b_x * detail::Lanes<4, Real>{ba3o_y, ba6o_y,
+      ba9o_y[0], ba9o_y[1]} + h3b_y * ba3o_x + (w2pp_y * bKy3 - (w1_z * bKx3 + (detail::Lanes<4,
       Real>{Real(0.0018349999999999998), Real(0.0018349999999999998), Real(0.0023000000000000004),
-      Real(0.0023000000000000004)} * bal2p_x - (S3b_xz * bal2o_x + (S3b_yz * (w2pp_y * g20) + (h3b_x *
-      detail::Lanes<4, Real>{ba3o_y, ba6o_y, ba9o_y[0], ba9o_y[1]} + (h3b_y * ba3o_x - (w1_z * bKx3 + w2pp_y *
-      bKy3)))))))));
+      Real(0.0023000000000000004)} * bal2p_x - (model.hold * stretch3 + (g20 * model.calm - detail::Lanes<4,
+      Real>{input.u[2], input.u[5], input.u[8], input.u[11]})) - (S3b_xz * bal2o_x + S3b_yz * (w2pp_y *
+      g19))))));
   const detail::Lanes<4, Real> p7_2l_x = detail::Lanes<4, Real>{Real(0.19), Real(0.19), Real(-0.19),
       Real(-0.19)} * h2_y;
   const detail::Lanes<4, Real> p7_2n_x = J2 - p7_2l_x;
-  const detail::Lanes<4, Real> p7_2F_x = s1s_3 * h2_y;
-  const detail::Lanes<4, Real> c1s_3 = {c1, c4, t335, c10};
-  const detail::Lanes<4, Real> p7_2F_y = c1s_3 * h2_y;
+  const detail::Lanes<4, Real> p7_2F_x = s1s * h2_y;
+  const detail::Lanes<4, Real> p7_2F_y = c1s * h2_y;
   const detail::Lanes<4, Real> p8_2l_x = detail::Lanes<4, Real>{Real(0.19), Real(0.19), Real(-0.19),
       Real(-0.19)} * h3b_y;
   const detail::Lanes<4, Real> p8_2n_x = E3 - p8_2l_x;
-  const detail::Lanes<4, Real> p8_2F_x = s1s_3 * h3b_y;
-  const detail::Lanes<4, Real> p8_2F_y = c1s_3 * h3b_y;
-  const detail::Lanes<4, Real> p8_2N_x = c1s_4 * p8_2n_x + s1s_5 * S3b_xz;
-  const detail::Lanes<4, Real> p8_2N_y = c1s * S3b_xz - s1s_4 * p8_2n_x;
+  const detail::Lanes<4, Real> p8_2F_x = s1s * h3b_y;
+  const detail::Lanes<4, Real> p8_2F_y = c1s * h3b_y;
+  const detail::Lanes<4, Real> p8_2N_x = c1s_3 * p8_2n_x + s1s_2 * S3b_xz;
+  const detail::Lanes<4, Real> p8_2N_y = c1s * S3b_xz - s1s_3 * p8_2n_x;
   const detail::Lanes<4, Real> L_8_7 = E3 * detail::Lanes<4, Real>{Real(544.9591280653951),
       Real(544.9591280653951), Real(434.78260869565213), Real(434.78260869565213)};
   const detail::Lanes<4, Real> H8_7_7 = J2 - E3 * L_8_7;
   const detail::Lanes<4, Real> G8_7f_x = p7_2F_x - p8_2F_x * L_8_7;
   const detail::Lanes<4, Real> G8_7f_y = p7_2F_y - p8_2F_y * L_8_7;
   const detail::Lanes<4, Real> G8_7f_z = h2_x - h3b_x * L_8_7;
-  const detail::Lanes<4, Real> G8_7n_x = s1s_5 * S2_xz + (c1s_4 * p7_2n_x - p8_2N_x * L_8_7);
-  const detail::Lanes<4, Real> G8_7n_y = s1s_4 * p7_2n_x - (t301 - p8_2N_y * L_8_7);
+  const detail::Lanes<4, Real> G8_7n_x = p8_2N_x * L_8_7 - (c1s_3 * p7_2n_x + s1s_2 * S2_xz);
+  const detail::Lanes<4, Real> G8_7n_y = p8_2N_y * L_8_7 - (t297 - s1s_3 * p7_2n_x);
   const detail::Lanes<4, Real> G8_7n_z = S2_yz - S3b_yz * L_8_7;
-  const detail::Lanes<4, Real> u8_7 = g19 * model.calm + (model.hold * stretch2 - (detail::Lanes<4,
-      Real>{input.u[1], input.u[4], input.u[7], input.u[10]} - (detail::Lanes<4, Real>{-h2_x[0], -h2_x[1],
-      h2_x[2], h2_x[3]} * detail::Lanes<4, Real>{ba5o_z[1], ba5o_z[0], ba5o_z[0], ba5o_z[1]} + (h2_y * ba2o_y
-      - (J2 * bal2p_x - (S2_xz * bal2p_y + (w1_z * bKx2 - (w2pp_y * bKy2 + (bn3c_z + b_8 * L_8_7)))))))));
+  const detail::Lanes<4, Real> u8_7 = b_8 * L_8_7 - (bn3c_z + (w2pp_y * bKy2 - (w1_z * bKx2 - (h2_y * ba2o_y +
+      (detail::Lanes<4, Real>{-h2_x[0], -h2_x[1], h2_x[2], h2_x[3]} * detail::Lanes<4, Real>{ba5o_z[1],
+      ba5o_z[0], ba5o_z[0], ba5o_z[1]} + (S2_xz * bal2p_y - (J2 * bal2p_x - (model.hold * stretch2 + (g18 *
+      model.calm - detail::Lanes<4, Real>{input.u[1], input.u[4], input.u[7], input.u[10]})))))))));
   const detail::Lanes<4, Real> GD8f_x = p8_2F_x * detail::Lanes<4, Real>{Real(544.9591280653951),
       Real(544.9591280653951), Real(434.78260869565213), Real(434.78260869565213)};
   const detail::Lanes<4, Real> GD8f_y = p8_2F_y * detail::Lanes<4, Real>{Real(544.9591280653951),
@@ -2038,252 +2020,213 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const detail::Lanes<4, Real> GD7n_x = G8_7n_x * invD_7;
   const detail::Lanes<4, Real> GD7n_y = G8_7n_y * invD_7;
   const detail::Lanes<4, Real> GD7n_z = G8_7n_z * invD_7;
-  const detail::Lanes<4, Real> t2207 = G8_7f_x * GD7f_x;
-  const detail::Lanes<4, Real> t2231 = G8_7n_x * GD7f_x;
-  const detail::Lanes<4, Real> t2235 = G8_7n_y * GD7f_x;
-  const detail::Lanes<4, Real> t2243 = G8_7n_x * GD7f_y;
-  const detail::Lanes<4, Real> t2255 = G8_7n_x * GD7f_z;
-  const detail::Lanes<4, Real> t2259 = G8_7n_y * GD7f_z;
+  const detail::Lanes<4, Real> t2295 = G8_7n_x * GD7f_y;
+  const detail::Lanes<4, Real> t2310 = G8_7n_x * GD7f_z;
+  const detail::Lanes<4, Real> t2316 = G8_7n_y * GD7f_z;
   const detail::Lanes<4, Real> I1_7H2_z = I1_8H2_z + G8_7n_z * GD7f_z;
-  const detail::Lanes<4, Real> t2271 = G8_7n_x * GD7n_x;
-  const detail::Lanes<4, Real> t2275 = G8_7n_y * GD7n_x;
-  const detail::Lanes<4, Real> t2283 = G8_7n_y * GD7n_y;
-  const detail::Lanes<4, Real> t2295 = u8_7 * GD7f_x;
-  const detail::Lanes<4, Real> t2307 = u8_7 * GD7n_x;
-  const detail::Lanes<4, Real> t2311 = u8_7 * GD7n_y;
-  const detail::Lanes<4, Real> f1_7n_z = f1_8n_z + u8_7 * GD7n_z;
-  const detail::Lanes<4, Real> I1rH0_z = I1_8H0_z - (h1b_y - G8_7n_z * GD7f_x);
-  const detail::Lanes<4, Real> I1rH1_z = I1_8H1_z - (h1b_x - G8_7n_z * GD7f_y);
-  const detail::Lanes<4, Real> I1rJ_xz = I1_8J_xz + (S1b_xz + G8_7n_z * GD7n_x);
-  const detail::Lanes<4, Real> I1rJ_yz = I1_8J_yz - (S1b_yz + G8_7n_z * GD7n_y);
-  const detail::Lanes<4, Real> I1rJ_zz = I1_8J_zz - (S1b_zz - G8_7n_z * GD7n_z);
+  const detail::Lanes<4, Real> f1_7n_z = f1_8n_z - u8_7 * GD7n_z;
+  const detail::Lanes<4, Real> I1rH0_z = G8_7n_z * GD7f_x - (h1b_y - I1_8H0_z);
+  const detail::Lanes<4, Real> I1rH1_z = G8_7n_z * GD7f_y - (h1b_x - I1_8H1_z);
+  const detail::Lanes<4, Real> I1rJ_xz = G8_7n_z * GD7n_x - (S1b_xz + I1_8J_xz);
+  const detail::Lanes<4, Real> I1rJ_yz = G8_7n_z * GD7n_y - (S1b_yz + I1_8J_yz);
+  const detail::Lanes<4, Real> I1rJ_zz = G8_7n_z * GD7n_z - (S1b_zz - I1_8J_zz);
   const detail::Lanes<4, Real> U1_0i = Real(1.0) / I1rJ_zz;
   const detail::Lanes<4, Real> U1_0sf_x = I1rH0_z * U1_0i;
   const detail::Lanes<4, Real> U1_0sf_y = I1rH1_z * U1_0i;
   const detail::Lanes<4, Real> U1_0sf_z = I1_7H2_z * U1_0i;
   const detail::Lanes<4, Real> U1_0sn_x = I1rJ_xz * U1_0i;
   const detail::Lanes<4, Real> U1_0sn_y = I1rJ_yz * U1_0i;
-  const detail::Lanes<4, Real> U1_0u = g15 * model.calm + (detail::Lanes<4, Real>{state.y[7], -state.y[10],
-      state.y[13], -state.y[16]} * model.hold - (detail::Lanes<4, Real>{input.u[0], -input.u[3], input.u[6],
-      -input.u[9]} - (g16 * bKy1 + (g18 * bKx1 + (h1b_x * detail::Lanes<4, Real>{ba1o_z, t1221, t1221, t1221}
-      + (h1b_y * detail::Lanes<4, Real>{ba1o_y, ba1o_y, ba1o_y, -ba1o_y} - (bn3c_y + f1_7n_z)))))));
-  const detail::Lanes<4, Real> t2425 = I1rH0_z * U1_0sf_x;
-  const detail::Lanes<4, Real> U1_0IA_xy = G8_7f_y * GD7f_x + (I1_8A_xy - I1rH1_z * U1_0sf_x);
-  const detail::Lanes<4, Real> U1_0IA_xz = G8_7f_z * GD7f_x + (I1_8A_xz - I1_7H2_z * U1_0sf_x);
-  const detail::Lanes<4, Real> U1_0IA_yy = G8_7f_y * GD7f_y + (I1_8A_yy - I1rH1_z * U1_0sf_y);
-  const detail::Lanes<4, Real> U1_0IA_yz = G8_7f_z * GD7f_y + (I1_8A_yz - I1_7H2_z * U1_0sf_y);
-  const detail::Lanes<4, Real> U1_0IA_zz = G8_7f_z * GD7f_z + (I1_8A_zz - I1_7H2_z * U1_0sf_z);
-  const detail::Lanes<4, Real> t2489 = I1rJ_xz * U1_0sf_x;
-  const detail::Lanes<4, Real> t2493 = I1rJ_yz * U1_0sf_x;
-  const detail::Lanes<4, Real> t2497 = I1rJ_xz * U1_0sf_y;
-  const detail::Lanes<4, Real> h1c_x = detail::Lanes<4, Real>{t395, h2_y[3], -I1_8H1_x[2], I1_8H1_x[3]} +
-      (detail::Lanes<4, Real>{h2_y[2], -h2_y[2], -t2243[2], t2243[3]} + (detail::Lanes<4, Real>{h2_y[1],
-      -h2_y[0], t2497[2], -t2497[3]} + h2_y));
-  const Real S1c_xy = S1b_xz[0] - (S1b_xz[1] + (S1b_xz[2] - (S1b_xz[3] + h1c_x[1] * Real(0.05))));
-  const Real bSu0_x = S1c_xy * state.z[4] + (S1c_xx * state.z[3] + S1c_xz * state.z[5]);
-  const detail::Lanes<2, Real> U1_0IH1_x = detail::Lanes<2, Real>{I1_8H1_x[0], I1_8H1_x[1]} -
-      (detail::Lanes<2, Real>{h2_y[0], h2_y[1]} - (detail::Lanes<2, Real>{t2243[0], t2243[1]} -
-      detail::Lanes<2, Real>{t2497[0], t2497[1]}));
-  const detail::Lanes<4, Real> t2540 = I1rJ_xz * U1_0sf_z;
-  const detail::Lanes<4, Real> h1c_z = detail::Lanes<4, Real>{h1b_y[2], -h1b_y[2], I1_8H2_x[2], -I1_8H2_x[3]}
-      - (detail::Lanes<4, Real>{h1b_y[3], h1b_y[3], -t2255[2], t2255[3]} + (detail::Lanes<4, Real>{-h1b_y[1],
-      h1b_y[0], t2540[2], -t2540[3]} - h1b_y));
-  const Real S1c_yz = S1b_xy[0] - (S1b_xy[1] - (S1b_xy[2] - (S1b_xy[3] - Real(0.05) * h1c_z[1])));
-  const Real bSu0_z = S1c_yz * state.z[4] - (S1c_xz * state.z[3] + S1c_zz * state.z[5]);
-  const detail::Lanes<2, Real> U1_0IH2_x = detail::Lanes<2, Real>{I1_8H2_x[0], I1_8H2_x[1]} -
-      (detail::Lanes<2, Real>{h1b_y[0], h1b_y[1]} - (detail::Lanes<2, Real>{t2255[0], t2255[1]} -
-      detail::Lanes<2, Real>{t2540[0], t2540[1]}));
-  const detail::Lanes<4, Real> t2581 = I1rJ_yz * U1_0sf_z;
-  const Real t2585 = -h1b_x[2];
-  const detail::Lanes<4, Real> h1c_y = detail::Lanes<4, Real>{t2585, t2585, I1_8H2_y[2], -I1_8H2_y[3]} -
-      (detail::Lanes<4, Real>{h1b_x[3], -h1b_x[3], t2259[2], -t2259[3]} + (detail::Lanes<4, Real>{h1b_x[1],
-      -h1b_x[0], t2581[2], -t2581[3]} - h1b_x));
-  const Real S1c_yy = S1b_xx[0] + (S1b_xx[1] + (S1b_xx[2] + (S1b_xx[3] + (h1c_y[1] * Real(0.1) +
-      Real(0.02215)))));
-  const Real bSu0_y = S1c_yy * state.z[4] + (S1c_xy * state.z[3] - S1c_yz * state.z[5]);
-  const Real buh0 = h1c_y[0] * state.z[4] - (h1c_x[0] * state.z[3] - h1c_z[0] * state.z[5]);
-  const detail::Lanes<2, Real> U1_0IH2_y = detail::Lanes<2, Real>{I1_8H2_y[0], I1_8H2_y[1]} -
-      (detail::Lanes<2, Real>{h1b_x[0], h1b_x[1]} + (detail::Lanes<2, Real>{t2259[0], t2259[1]} +
-      detail::Lanes<2, Real>{t2581[0], t2581[1]}));
-  const detail::Lanes<4, Real> t2627 = I1rJ_xz * U1_0sn_x;
-  const detail::Lanes<4, Real> t2631 = I1rJ_yz * U1_0sn_x;
-  const detail::Lanes<4, Real> t2635 = I1rJ_yz * U1_0sn_y;
-  const detail::Lanes<4, Real> t2639 = U1_0sf_x * U1_0u;
-  const detail::Lanes<4, Real> U1_0ff_y = u8_7 * GD7f_y + (f1_8f_y + U1_0sf_y * U1_0u);
-  const detail::Lanes<4, Real> U1_0ff_z = u8_7 * GD7f_z + (f1_8f_z + U1_0sf_z * U1_0u);
-  const detail::Lanes<4, Real> t2667 = U1_0sn_x * U1_0u;
-  const detail::Lanes<4, Real> t2671 = U1_0sn_y * U1_0u;
+  const detail::Lanes<4, Real> U1_0u = f1_7n_z - (bn3c_y - (g17 * bKx1 + (g15 * bKy1 - (h1b_y *
+      detail::Lanes<4, Real>{ba1o_y, t1287, ba1o_y, t1287} + (h1b_x * detail::Lanes<4, Real>{ba1o_z, t1282,
+      ba1o_z, t1282} + (g13 * model.calm + (detail::Lanes<4, Real>{state.y[7], -state.y[10], state.y[13],
+      -state.y[16]} * model.hold - detail::Lanes<4, Real>{input.u[0], -input.u[3], input.u[6],
+      -input.u[9]})))))));
+  const detail::Lanes<4, Real> U1_0IA_xy = I1rH1_z * U1_0sf_x - (I1_8A_xy + G8_7f_y * GD7f_x);
+  const detail::Lanes<4, Real> U1_0IA_xz = I1_7H2_z * U1_0sf_x - (I1_8A_xz + G8_7f_z * GD7f_x);
+  const detail::Lanes<4, Real> U1_0IA_yy = I1rH1_z * U1_0sf_y - (I1_8A_yy + G8_7f_y * GD7f_y);
+  const detail::Lanes<4, Real> U1_0IA_yz = I1_7H2_z * U1_0sf_y - (I1_8A_yz + G8_7f_z * GD7f_y);
+  const detail::Lanes<4, Real> U1_0IA_zz = I1_7H2_z * U1_0sf_z - (I1_8A_zz + G8_7f_z * GD7f_z);
+  const detail::Lanes<4, Real> t2556 = I1rJ_xz * U1_0sf_y;
+  const Real U10_0IH1_x = t2556[3] + (h2_y[3] + I1_8H1_x[3] - t2295[3]);
+  const Real U7_0IH1_x = t2556[2] + (h2_y[2] + I1_8H1_x[2] - t2295[2]);
+  const Real U4_0IH1_x = t2556[1] + (h2_y[1] + I1_8H1_x[1] - t2295[1]);
+  const Real U1_0IH1_x = t2556[0] - (t2295[0] + (h2_y[0] - I1_8H1_x[0]));
+  const detail::Lanes<4, Real> t2570 = I1rJ_xz * U1_0sf_z;
+  const Real U10_0IH2_x = t2310[3] + (h1b_y[3] - I1_8H2_x[3]) - t2570[3];
+  const Real U7_0IH2_x = t2570[2] + (h1b_y[2] + I1_8H2_x[2] - t2310[2]);
+  const detail::Lanes<2, Real> U1_0IH2_x = detail::Lanes<2, Real>{t2570[0], t2570[1]} - (detail::Lanes<2,
+      Real>{t2310[0], t2310[1]} + (detail::Lanes<2, Real>{h1b_y[0], h1b_y[1]} - detail::Lanes<2,
+      Real>{I1_8H2_x[0], I1_8H2_x[1]}));
+  const detail::Lanes<4, Real> t2582 = I1rJ_yz * U1_0sf_z;
+  const Real U10_0IH2_y = t2582[3] - (t2316[3] + (h1b_x[3] - I1_8H2_y[3]));
+  const Real U7_0IH2_y = t2582[2] - (t2316[2] + (h1b_x[2] - I1_8H2_y[2]));
+  const detail::Lanes<2, Real> U1_0IH2_y = detail::Lanes<2, Real>{t2582[0], t2582[1]} - (detail::Lanes<2,
+      Real>{t2316[0], t2316[1]} + (detail::Lanes<2, Real>{h1b_x[0], h1b_x[1]} - detail::Lanes<2,
+      Real>{I1_8H2_y[0], I1_8H2_y[1]}));
   const detail::Lanes<4, Real> I1pH0_x = Real(0.05) * U1_0IA_yz;
-  const detail::Lanes<4, Real> t2680 = detail::Lanes<4, Real>{Real(0.05), Real(0.05), Real(0.05), Real(-0.05)}
-      * U1_0IA_zz;
-  const detail::Lanes<2, Real> I7pH0_z = detail::Lanes<2, Real>{h1c_y[2], h1c_y[3]} + detail::Lanes<2,
-      Real>{t2680[2], t2680[3]};
-  const detail::Lanes<2, Real> I1pH0_z = U1_0IH2_y + detail::Lanes<2, Real>{t2680[0], t2680[1]};
+  const detail::Lanes<4, Real> t2630 = Real(0.05) * U1_0IA_zz;
+  const detail::Lanes<2, Real> I7pH0_z = detail::Lanes<2, Real>{U7_0IH2_y, U10_0IH2_y} - detail::Lanes<2,
+      Real>{t2630[2], t2630[3]};
+  const detail::Lanes<2, Real> I1pH0_z = U1_0IH2_y - detail::Lanes<2, Real>{t2630[0], t2630[1]};
   const detail::Lanes<4, Real> I1pH2_x = Real(0.05) * U1_0IA_yy;
-  const detail::Lanes<4, Real> I1pH2_z = G8_7n_y * GD7f_y - (I1_8H1_y - (I1rJ_yz * U1_0sf_y - I1pH0_x));
-  const Real I1cH0_z = I7pH0_z[0] - (I1pH0_z[1] - I1pH0_z[0] - I7pH0_z[1]);
-  const Real I1cH2_z = I1pH2_z[0] - I1pH2_z[1] - I1pH2_z[3] - I1pH2_z[2];
-  const Real I1cJ_xz = Real(0.05) * (I1pH2_z[3] + (I1pH2_z[1] + I1pH2_z[0]) - I1pH2_z[2]);
-  const Real I1cJ_yz = S1b_xy[3] - (S1b_xy[2] - (I1_8J_xy[2] + (S1b_xy[1] + (I1_8J_xy[1] - (t2275[1] +
-      (t2631[1] + (S1b_xy[0] + (I1_8J_xy[0] - (t2275[0] + (t2631[0] + Real(0.05) * (h1c_z[2] + (h1c_z[3] +
-      (U1_0IH2_x[1] - U1_0IH2_x[0])))))))))) - t2631[2] - t2275[2])) - t2631[3] - t2275[3]) - I1_8J_xy[3];
-  const Real I0sH1_z = I1_8H0_y[3] - (t395 + (t2235[3] + (t2493[3] + (h2_y[2] + (I1_8H0_y[2] - (t2235[2] +
-      (t2493[2] - (h2_y[1] - (t2235[1] - (h2_y[0] + (I1_8H0_y[0] - (t2235[0] + (t2493[0] - Real(0.05) *
-      (U1_0IA_xz[2] - (U1_0IA_xz[3] - (U1_0IA_xz[1] + U1_0IA_xz[0])))))) - t2493[1]) - I1_8H0_y[1])))))))));
-  const Real I0sJ_zz = S1b_xx[3] + (S2c_zz[3] - (I1_8J_yy[3] + (t2283[3] - (t2635[3] + (S2c_zz[2] + (S1b_xx[2]
-      - (I1_8J_yy[2] + (t2283[2] - (t2635[2] + (S2c_zz[1] + (S1b_xx[1] - (I1_8J_yy[1] + (t2283[1] - (t2635[1]
-      + (S2c_zz[0] + (S1b_xx[0] - (I1_8J_yy[0] + (t2283[0] - (t2635[0] - (Real(0.05) * (h1c_y[2] + (I7pH0_z[0]
-      + (U1_0IH2_y[1] + (I1pH0_z[1] + (U1_0IH2_y[0] + I1pH0_z[0])))) - h1c_y[3] - I7pH0_z[1]) -
-      Real(0.24852000000000002)))))))))))))))))))));
+  const detail::Lanes<4, Real> I1pH2_z = I1pH0_x - (I1rJ_yz * U1_0sf_y + (I1_8H1_y - G8_7n_y * GD7f_y));
+  const Real I1cH0_z = I7pH0_z[1] - I7pH0_z[0] + (I1pH0_z[1] - I1pH0_z[0]);
+  const Real I1cH2_z = I1pH2_z[3] - I1pH2_z[2] + (I1pH2_z[1] - I1pH2_z[0]);
+  const Real I1cJ_xz = Real(0.05) * (I1pH2_z[3] + I1pH2_z[2] + (I1pH2_z[1] + I1pH2_z[0]));
+  const detail::Lanes<4, Real> t2672 = I1rJ_yz * U1_0sn_x - (I1_8J_xy + G8_7n_y * GD7n_x);
+  const Real I1cJ_yz = Real(0.05) * (U10_0IH2_x + U7_0IH2_x - (U1_0IH2_x[1] + U1_0IH2_x[0])) - (t2672[2] -
+      t2672[1] - (t2672[3] + (t2672[0] - (t435 - (S1b_xy[3] - S1b_xy[0])))));
+  const detail::Lanes<4, Real> t2691 = I1rJ_yz * U1_0sf_x + (I1_8H0_y - G8_7n_y * GD7f_x);
+  const Real I0sH1_z = Real(0.05) * (U1_0IA_xz[3] - U1_0IA_xz[2] + (U1_0IA_xz[1] - U1_0IA_xz[0])) - (t2691[1]
+      - t2691[2] + (t2691[3] - (h1c_x + t2691[0])));
+  const detail::Lanes<2, Real> t2700 = U1_0IH2_y + I1pH0_z;
+  const detail::Lanes<4, Real> t2716 = I1rJ_yz * U1_0sn_y + (S1b_xx - (I1_8J_yy + G8_7n_y * GD7n_y));
+  const Real I0sJ_zz = Real(0.05) * (I7pH0_z[0] + t2700[0] + (t2700[1] + (I7pH0_z[1] + (U10_0IH2_y +
+      U7_0IH2_y)))) - (t2716[1] + t2716[2] + (t2716[3] + (t2716[0] + (t404 + (S11c_zz +
+      Real(0.24852000000000002))))));
   const Real U0_5i = Real(1.0) / I0sJ_zz;
   const Real U0_5sf_x = I1cH0_z * U0_5i;
   const Real U0_5sf_y = I0sH1_z * U0_5i;
   const Real U0_5sf_z = I1cH2_z * U0_5i;
   const Real U0_5sn_x = I1cJ_xz * U0_5i;
   const Real U0_5sn_y = I1cJ_yz * U0_5i;
-  const Real U0_5u = state.z[4] * bSu0_x - (state.z[3] * bSu0_y + (t1279[0] + (t1283[0] + (t1809[0] +
-      (t1813[0] + (t1283[1] + (t1809[1] + (t1813[1] - (t1279[2] - (t1809[2] + (t1813[2] + (t1279[3] +
-      (t1283[3] + (t1809[3] + (t1813[3] - (f1_8n_y[0] - (t2311[0] - (t2671[0] - (f1_8n_y[1] - (t2311[1] +
-      (f1_8n_y[2] - (t2311[2] - (t2671[2] - (f1_8n_y[3] + (t2671[3] + Real(0.05) * (bf1_z[2] - (bf1_z[3] +
-      (bf1_z[1] - (bf1_z[0] + (U1_0ff_z[3] - (U1_0ff_z[2] - (U1_0ff_z[1] - U1_0ff_z[0]))))))) - t2311[3])))) -
-      t2671[1]))))))))))) - t1283[2])))) - t1279[1]))))));
-  const Real U0_5IH0_y = h1c_z[3] + (U1_0IH2_x[1] + (U1_0IH2_x[0] - I1cJ_yz * U0_5sf_x)) - h1c_z[2];
-  const Real U0_5IH1_y = t2231[3] + (I1_8H0_x[3] + (I1_8H0_x[2] + (t2231[2] + (I1_8H0_x[1] + (t2231[1] -
-      (t2489[1] + (I1_8H0_x[0] + (t2231[0] - (t2489[0] - I1cJ_yz * U0_5sf_y))))) - t2489[2])) - t2489[3]));
-  const Real U0_5IH2_y = h1c_x[3] + (Real(0.0038000000000000035) - (U1_0IH1_x[1] + (U1_0IH1_x[0] + I1cJ_yz *
-      U0_5sf_z) - h1c_x[2]));
-  const Real U0_5IJ_xy = I1cJ_yz * U0_5sn_x - Real(0.05) * (h1c_x[2] + (U1_0IH1_x[1] - U1_0IH1_x[0] -
-      h1c_x[3]));
-  const Real U0_5IJ_yy = S1b_yy[3] + (S2c_zz[3] - (I1_8J_xx[3] + (t2271[3] - (t2627[3] + (S2c_zz[2] +
-      (S1b_yy[2] - (I1_8J_xx[2] + (t2271[2] - (t2627[2] + (S2c_zz[1] + (S1b_yy[1] - (I1_8J_xx[1] + (t2271[1] -
-      (t2627[1] + (S2c_zz[0] + (S1b_yy[0] - (I1_8J_xx[0] + (t2271[0] - (t2627[0] - (I1cJ_yz * U0_5sn_y -
-      Real(0.22877)))))))))))))))))))));
+  const detail::Lanes<4, Real> t2750 = U1_0sf_z * U1_0u + (u8_7 * GD7f_z - (f1_8f_z - (bef3_y + (bdf1_z +
+      bdf2_y))));
+  const detail::Lanes<4, Real> bn2c_ys = {bn2c_y, bn5c_y, bn8c_y[0], bn8c_y[1]};
+  const detail::Lanes<4, Real> t2778 = U1_0sn_y * U1_0u + (u8_7 * GD7n_y + (s1s_3 * bn2c_x - (c1s_3 * bn2c_ys
+      - (f1_8n_y - (S1b_xz * zz_1 - bKx1 * z2_1)))));
+  const Real U0_5u = Real(0.05) * (t2750[0] - t2750[1] + (t2750[2] - t2750[3])) + (t2778[1] - t2778[2] +
+      (t2778[3] - (t2778[0] - (state.z[3] * bSu0_y + state.z[4] * bSu0_x))));
+  const Real U0_5IH0_y = I1cJ_yz * U0_5sf_x - (U10_0IH2_x - U7_0IH2_x + (U1_0IH2_x[0] - U1_0IH2_x[1]));
+  const detail::Lanes<4, Real> t2806 = I1rJ_xz * U1_0sf_x + (I1_8H0_x - G8_7n_x * GD7f_x);
+  const Real U0_5IH1_y = I1cJ_yz * U0_5sf_y + (t2806[0] - t2806[1] - (t2806[2] + t2806[3]));
+  const Real U0_5IH2_y = I1cJ_yz * U0_5sf_z + (U1_0IH1_x - (Real(0.0038000000000000035) + U10_0IH1_x) -
+      (U7_0IH1_x + U4_0IH1_x));
+  const Real U0_5IJ_xy = I1cJ_yz * U0_5sn_x + Real(0.05) * (U7_0IH1_x - U10_0IH1_x - (U4_0IH1_x + U1_0IH1_x));
+  const detail::Lanes<4, Real> t2833 = I1rJ_xz * U1_0sn_x - (I1_8J_xx + G8_7n_x * GD7n_x);
+  const Real U0_5IJ_yy = I1cJ_yz * U0_5sn_y + (t2833[1] + t2833[2] + (t2833[3] + (t2833[0] + (t442 +
+      (S1b_yy[3] + (t404 + (S11c_zz + Real(0.22877))))))));
   const Real U0_4i = Real(1.0) / U0_5IJ_yy;
   const Real U0_4sf_x = U0_5IH0_y * U0_4i;
   const Real U0_4sf_y = U0_5IH1_y * U0_4i;
   const Real U0_4sf_z = U0_5IH2_y * U0_4i;
   const Real U0_4sn_x = U0_5IJ_xy * U0_4i;
-  const Real U0_4u = state.z[5] * bSu0_x + (state.z[3] * bSu0_z - (t1271[3] - (t1275[3] + (t1801[3] -
-      (t1805[3] + (t1271[2] - (t1275[2] + (t1801[2] - (t1805[2] + (t1271[1] - (t1275[1] + (t1801[1] -
-      (t1805[1] + (t1271[0] - (t1275[0] + (t1801[0] - (t1805[0] + (f1_8n_x[3] + (t2307[3] + (t2667[3] -
-      (f1_8n_x[1] + (t2307[1] + (t2667[1] + (f1_8n_x[0] + (t2307[0] + (t2667[0] - U0_5sn_y * U0_5u))))) -
-      t2667[2] - t2307[2] - f1_8n_x[2])))))))))))))))))))));
-  const Real U0_4IH0_x = I1pH0_x[2] + (I1pH0_x[3] + (I1pH0_x[1] - (I1pH0_x[0] - (I1cJ_xz * U0_5sf_x -
-      U0_5IJ_xy * U0_4sf_x))));
-  const Real U0_4IH1_x = I1cJ_xz * U0_5sf_y - Real(0.05) * (U1_0IA_xy[2] + (U1_0IA_xy[3] - (U1_0IA_xy[1] +
-      U1_0IA_xy[0]))) - U0_5IJ_xy * U0_4sf_y;
-  const Real U0_4IH2_x = I1pH2_x[2] - (I1pH2_x[3] + (I1pH2_x[1] - (I1pH2_x[0] + (I1cJ_xz * U0_5sf_z -
-      U0_5IJ_xy * U0_4sf_z))));
-  const Real U0_4IJ_xx = I1cJ_xz * U0_5sn_x - (Real(0.024550000000000002) - (U0_5IJ_xy * U0_4sn_x + Real(0.05)
-      * (I1pH2_x[2] + (I1pH2_x[3] + (I1pH2_x[1] + I1pH2_x[0])))));
+  const detail::Lanes<4, Real> t2877 = U1_0sn_x * U1_0u + (u8_7 * GD7n_x - (c1s_3 * bn2c_x + (s1s_3 * bn2c_ys
+      - (f1_8n_x + (S1b_yz * zz_1 - bKy1 * z2_1)))));
+  const Real U0_4u = U0_5sn_y * U0_5u - (t2877[0] + (state.z[3] * bSu0_z - state.z[5] * bSu0_x) - t2877[3] -
+      (t2877[1] + t2877[2]));
+  const Real U0_4IH0_x = U0_5IJ_xy * U0_4sf_x - (I1cJ_xz * U0_5sf_x - (I1pH0_x[3] - I1pH0_x[2] + (I1pH0_x[1] -
+      I1pH0_x[0])));
+  const Real U0_4IH1_x = U0_5IJ_xy * U0_4sf_y - (I1cJ_xz * U0_5sf_y + Real(0.05) * (U1_0IA_xy[3] -
+      U1_0IA_xy[2] + (U1_0IA_xy[1] - U1_0IA_xy[0])));
+  const Real U0_4IH2_x = U0_5IJ_xy * U0_4sf_z - (I1cJ_xz * U0_5sf_z + (I1pH2_x[3] - I1pH2_x[2] + (I1pH2_x[1] -
+      I1pH2_x[0])));
+  const Real U0_4IJ_xx = U0_5IJ_xy * U0_4sn_x - (I1cJ_xz * U0_5sn_x + (Real(0.05) * (I1pH2_x[3] + I1pH2_x[2] +
+      (I1pH2_x[1] + I1pH2_x[0])) + Real(0.024550000000000002)));
   const Real U0_3i = Real(1.0) / U0_4IJ_xx;
   const Real U0_3sf_x = U0_4IH0_x * U0_3i;
   const Real U0_3sf_y = U0_4IH1_x * U0_3i;
   const Real U0_3sf_z = U0_4IH2_x * U0_3i;
-  const Real U0_3u = state.z[5] * bSu0_y + (state.z[4] * bSu0_z - (bn3c_y[0] + (bn3c_y[2] + (f1_7n_z[0] +
-      (U1_0u[0] - (f1_7n_z[1] - (f1_7n_z[2] + (U1_0u[2] - (f1_7n_z[3] + (U1_0u[3] + (U0_5sn_x * U0_5u -
-      (U0_4sn_x * U0_4u + Real(0.05) * (bf1_y[2] - (bf1_y[1] - (bf1_y[0] - (U1_0ff_y[3] + (U1_0ff_y[2] +
-      (U1_0ff_y[1] - U1_0ff_y[0])))) - bf1_y[3]))))))) - U1_0u[1]))) - bn3c_y[3]) - bn3c_y[1])));
-  const Real U0_3IA_xz = U1_0IA_yz[3] + (U1_0IA_yz[1] + (U1_0IA_yz[0] - (I1cH2_z * U0_5sf_x + (U0_5IH2_y *
-      U0_4sf_x - U0_4IH2_x * U0_3sf_x)))) - U1_0IA_yz[2];
-  const Real U0_3IA_yz = U1_0IA_xy[3] + (U1_0IA_xy[0] + (I1cH2_z * U0_5sf_y + (U0_5IH2_y * U0_4sf_y -
-      U0_4IH2_x * U0_3sf_y)) - U1_0IA_xy[1]) - U1_0IA_xy[2];
-  const Real U0_3IA_zz = U1_0IA_yy[3] + (U1_0IA_yy[2] + (U1_0IA_yy[1] + (U1_0IA_yy[0] + (I1cH2_z * U0_5sf_z -
-      (U0_4IH2_x * U0_3sf_z - U0_5IH2_y * U0_4sf_z)))) - model.front_abduction1_m);
+  const detail::Lanes<4, Real> t2945 = U1_0sf_y * U1_0u + (u8_7 * GD7f_y - (bdf1_y + c1s * bf3c_x + (s1s_3 *
+      bf3c_z + f1_8f_y)));
+  const detail::Lanes<4, Real> t2957 = U1_0u + (bn3c_y - f1_7n_z);
+  const Real U0_3u = U0_4sn_x * U0_4u - (U0_5sn_x * U0_5u + (Real(0.05) * (t2945[0] - t2945[1] + (t2945[2] -
+      t2945[3])) - (t2957[1] - t2957[2] + (t2957[3] - (t2957[0] + (state.z[4] * bSu0_z + state.z[5] *
+      bSu0_y))))));
+  const Real U0_3IA_xz = U0_4IH2_x * U0_3sf_x - (U0_5IH2_y * U0_4sf_x - (I1cH2_z * U0_5sf_x - (U1_0IA_yz[3] +
+      U1_0IA_yz[2] + (U1_0IA_yz[1] + U1_0IA_yz[0]))));
+  const Real U0_3IA_yz = U0_4IH2_x * U0_3sf_y - (U0_5IH2_y * U0_4sf_y - (I1cH2_z * U0_5sf_y + (U1_0IA_xy[3] +
+      U1_0IA_xy[2] + (U1_0IA_xy[1] + U1_0IA_xy[0]))));
+  const Real U0_3IA_zz = U0_4IH2_x * U0_3sf_z - (U0_5IH2_y * U0_4sf_z - (I1cH2_z * U0_5sf_z + (U1_0IA_yy[2] +
+      U1_0IA_yy[1] + (U1_0IA_yy[0] + (U1_0IA_yy[3] + model.front_abduction1_m)))));
   const Real U0_2i = Real(1.0) / U0_3IA_zz;
   const Real U0_2sf_x = U0_3IA_xz * U0_2i;
   const Real U0_2sf_y = U0_3IA_yz * U0_2i;
-  const Real U0_2u = h1c_z[0] * buw0 - (state.z[5] * buh0 - (bf1_y[2] + (bf1_y[1] + (bf1_y[0] + (U1_0ff_y[3] +
-      (U1_0ff_y[1] + (U1_0ff_y[0] - (U0_5sf_z * U0_5u + (U0_4sf_z * U0_4u - U0_3sf_z * U0_3u))) -
-      U1_0ff_y[2])))) - bf1_y[3]));
-  const Real U0_2IA_xy = U1_0IA_xz[2] + (U1_0IA_xz[3] + (U1_0IA_xz[0] - (I0sH1_z * U0_5sf_x + (U0_5IH1_y *
-      U0_4sf_x + (U0_3IA_yz * U0_2sf_x - U0_4IH1_x * U0_3sf_x))) - U1_0IA_xz[1]));
-  const Real U0_2IA_yy = I1_8A_xx[3] - (model.front_abduction1_m - (t2207[3] - (t2425[3] - (I1_8A_xx[2] +
-      (t2207[2] - (t2425[2] - (I1_8A_xx[1] + (t2207[1] - (t2425[1] - (I1_8A_xx[0] + (t2207[0] - (t2425[0] -
-      (I0sH1_z * U0_5sf_y - (U0_4IH1_x * U0_3sf_y + U0_3IA_yz * U0_2sf_y - U0_5IH1_y * U0_4sf_y))))))))))))));
+  const Real U0_2u = U0_3sf_z * U0_3u - (U0_4sf_z * U0_4u - (U0_5sf_z * U0_5u - (t2945[1] + t2945[2] +
+      (t2945[3] + (t2945[0] - (state.z[5] * buh0 - h1c_z * buw0))))));
+  const Real U0_2IA_xy = U0_3IA_yz * U0_2sf_x - (U0_4IH1_x * U0_3sf_x - (U0_5IH1_y * U0_4sf_x - (I0sH1_z *
+      U0_5sf_x - (U1_0IA_xz[3] + U1_0IA_xz[2] + (U1_0IA_xz[1] + U1_0IA_xz[0])))));
+  const detail::Lanes<4, Real> t3023 = I1rH0_z * U1_0sf_x - (I1_8A_xx + G8_7f_x * GD7f_x);
+  const Real U0_2IA_yy = U0_3IA_yz * U0_2sf_y - (U0_4IH1_x * U0_3sf_y - (U0_5IH1_y * U0_4sf_y - (I0sH1_z *
+      U0_5sf_y + (t3023[1] + t3023[2] + (t3023[3] + (model.front_abduction1_m + t3023[0]))))));
   const Real U0_1i = Real(1.0) / U0_2IA_yy;
   const Real U0_1sf_x = U0_2IA_xy * U0_1i;
-  const Real U0_1u = h1c_y[0] * buw0 - (state.z[4] * buh0 + (bdf1_x[3] - (t1769[3] - (t1773[3] - (t1769[2] -
-      (t1773[2] + (bdf1_x[1] - (t1769[1] - (t1773[1] - (bdf1_x[0] + (t1769[0] - (t1773[0] + (f1_8f_x[3] +
-      (t2295[3] + (t2639[3] + (f1_8f_x[2] + (t2295[2] + (t2639[2] - (f1_8f_x[1] + (t2295[1] + (t2639[1] -
-      (f1_8f_x[0] + (t2295[0] + (t2639[0] - (U0_5sf_y * U0_5u - (U0_3sf_y * U0_3u - U0_2sf_y * U0_2u -
-      U0_4sf_y * U0_4u))))))))))))))))))))) - bdf1_x[2])))));
-  const Real U0_1IA_xx = U1_0IA_zz[3] - (model.front_abduction1_m - (U1_0IA_zz[2] + (U1_0IA_zz[1] +
-      (U1_0IA_zz[0] + (I1cH0_z * U0_5sf_x - (U0_4IH0_x * U0_3sf_x + (U0_3IA_xz * U0_2sf_x + U0_2IA_xy *
-      U0_1sf_x) - U0_5IH0_y * U0_4sf_x))))));
-  const Real U0_0u = h1c_x[0] * buw0 + (state.z[3] * buh0 + (bf1_z[3] + (bf1_z[2] + (bf1_z[1] + (bf1_z[0] -
-      (U1_0ff_z[3] + (U1_0ff_z[2] + (U1_0ff_z[1] + (U1_0ff_z[0] + (U0_5sf_x * U0_5u - (U0_3sf_x * U0_3u +
-      (U0_2sf_x * U0_2u - U0_1sf_x * U0_1u) - U0_4sf_x * U0_4u)))))))))));
+  const detail::Lanes<4, Real> t3055 = U1_0sf_x * U1_0u + (u8_7 * GD7f_x + (bdf1_x + c1s_2 * bf3c_z - (s1s *
+      bf3c_x + f1_8f_x)));
+  const Real U0_1u = U0_2sf_y * U0_2u - (U0_3sf_y * U0_3u - (U0_4sf_y * U0_4u - (U0_5sf_y * U0_5u - (t3055[1]
+      + t3055[2] + (t3055[3] + (t3055[0] + (state.z[4] * buh0 - h1c_y * buw0)))))));
+  const Real U0_1IA_xx = U0_2IA_xy * U0_1sf_x - (U0_3IA_xz * U0_2sf_x - (U0_4IH0_x * U0_3sf_x - (U0_5IH0_y *
+      U0_4sf_x - (I1cH0_z * U0_5sf_x + (U1_0IA_zz[2] + U1_0IA_zz[1] + (U1_0IA_zz[0] + (U1_0IA_zz[3] +
+      model.front_abduction1_m)))))));
+  const Real U0_0u = U0_1sf_x * U0_1u - (U0_2sf_x * U0_2u - (U0_3sf_x * U0_3u - (U0_4sf_x * U0_4u - (U0_5sf_x
+      * U0_5u + (t2750[1] + t2750[2] + (t2750[3] + (t2750[0] - (state.z[3] * buh0 - h1c_x * buw0))))))));
   const Real acc0u = U0_0u / U0_1IA_xx;
   const Real acc0u_2 = U0_1i * U0_1u;
   const Real zdot_1 = acc0u_2 - U0_1sf_x * acc0u;
   const Real acc0u_3 = U0_2i * U0_2u;
-  const Real zdot_2 = U0_2sf_x * acc0u + (acc0u_3 + U0_2sf_y * zdot_1);
+  const Real zdot_2 = U0_2sf_y * zdot_1 - (acc0u_3 - U0_2sf_x * acc0u);
   const Real acc0u_4 = U0_3i * U0_3u;
-  const Real zdot_3 = U0_3sf_x * acc0u + (acc0u_4 - (U0_3sf_y * zdot_1 - U0_3sf_z * zdot_2));
+  const Real zdot_3 = U0_3sf_z * zdot_2 - (U0_3sf_y * zdot_1 - (acc0u_4 - U0_3sf_x * acc0u));
   const Real acc0u_5 = U0_4i * U0_4u;
-  const Real zdot_4 = U0_4sf_x * acc0u + (acc0u_5 + (U0_4sf_z * zdot_2 + U0_4sn_x * zdot_3 - U0_4sf_y *
-      zdot_1));
+  const Real zdot_4 = U0_4sn_x * zdot_3 - (U0_4sf_z * zdot_2 - (U0_4sf_y * zdot_1 - (acc0u_5 - U0_4sf_x *
+      acc0u)));
   const Real acc0u_6 = U0_5i * U0_5u;
-  const Real zdot_5 = U0_5sf_x * acc0u + (acc0u_6 - (U0_5sf_y * zdot_1 - (U0_5sf_z * zdot_2 - (U0_5sn_x *
-      zdot_3 + U0_5sn_y * zdot_4))));
-  const Real t3161 = Real(0.05) * zdot_5;
-  const Real acc1o_x = acc0u + t3161;
-  const Real t3163 = Real(0.05) * zdot_3;
-  const Real acc1o_z = zdot_2 - t3163;
+  const Real zdot_5 = U0_5sn_y * zdot_4 - (U0_5sn_x * zdot_3 - (U0_5sf_z * zdot_2 - (U0_5sf_y * zdot_1 -
+      (acc0u_6 - U0_5sf_x * acc0u))));
+  const Real t3125 = Real(0.05) * zdot_5;
+  const Real acc1o_x = acc0u - t3125;
+  const Real t3127 = Real(0.05) * zdot_3;
+  const Real acc1o_z = zdot_2 + t3127;
   const detail::Lanes<4, Real> acc1u = U1_0i * U1_0u;
-  const Real t3169 = -zdot_1;
-  const Real t3174 = -zdot_4;
-  const Real t3179 = -zdot_5;
+  const Real t3137 = -zdot_4;
+  const Real t3142 = -zdot_5;
   const detail::Lanes<4, Real> y_7 = u8_7 * invD_7;
   const detail::Lanes<4, Real> y_8 = b_8 * detail::Lanes<4, Real>{Real(544.9591280653951),
       Real(544.9591280653951), Real(434.78260869565213), Real(434.78260869565213)};
-  const Real acc4o_x = acc0u - t3161;
-  const Real acc4o_z = zdot_2 + t3163;
-  const Real t3230 = -acc1o_z;
-  const Real t3235 = -zdot_3;
-  const detail::Lanes<4, Real> zdot_1s = {zdot_1, t3169, zdot_1, zdot_1};
-  const detail::Lanes<4, Real> acc1o_zs = {acc1o_z, acc4o_z, t3230, acc4o_z};
+  const Real acc4o_x = acc0u + t3125;
+  const Real acc4o_z = zdot_2 - t3127;
+  const Real t3197 = -zdot_3;
   const detail::Lanes<4, Real> acc1o_xs = {acc1o_x, acc4o_x, acc1o_x, acc4o_x};
-  const detail::Lanes<4, Real> t3174s = {t3174, t3174, zdot_4, zdot_4};
-  const detail::Lanes<4, Real> t3235s = {t3235, zdot_3, t3235, zdot_3};
-  const detail::Lanes<4, Real> zdot_5s = {zdot_5, t3179, zdot_5, t3179};
-  const detail::Lanes<4, Real> zdot_6 = U1_0sf_x * zdot_1s - (acc1u + (U1_0sf_y * acc1o_zs - (U1_0sf_z *
-      acc1o_xs - (U1_0sn_x * t3174s + (t3235s - U1_0sn_y * zdot_5s)))));
-  const detail::Lanes<4, Real> al1_0_z = t3235s + zdot_6;
-  const detail::Lanes<4, Real> yh_7 = GD7f_x * zdot_1s + (y_7 - (GD7f_y * acc1o_zs - (GD7f_z * acc1o_xs -
-      (GD7n_x * t3174s + (GD7n_y * zdot_5s + GD7n_z * al1_0_z)))));
-  const detail::Lanes<4, Real> zdot_8 = GD8f_x * zdot_1s + (y_8 - (GD8f_y * acc1o_zs - (GD8f_z * acc1o_xs -
-      (GD8n_x * t3174s - (GD8n_y * zdot_5s - (GD8n_z * al1_0_z + L_8_7 * yh_7))))));
-  const Real vdot0_x = q0r0_y * zdot_1 + (q0r0_x * acc0u + q0r0_z * zdot_2);
-  const Real vdot0_y = q0r1_y * zdot_1 + (q0r1_x * acc0u - q0r1_z * zdot_2);
-  const Real zdot_2_2 = q0r2_y * zdot_1 - (q0r2_x * acc0u + (q0r2_z * zdot_2 - Real(9.81)));
+  const detail::Lanes<4, Real> zdot_5s = {zdot_5, t3142, zdot_5, t3142};
+  const detail::Lanes<4, Real> zdot_4s = {zdot_4, t3137, t3137, t3137};
+  const detail::Lanes<4, Real> acc1o_zs = {acc1o_z, acc4o_z, acc1o_z, acc4o_z};
+  const detail::Lanes<4, Real> zdot_3s = {zdot_3, t3197, zdot_3, t3197};
+  const detail::Lanes<4, Real> zdot_6 = U1_0sf_z * acc1o_xs + (U1_0sn_y * zdot_5s + (U1_0sn_x * zdot_4s +
+      (U1_0sf_y * acc1o_zs + (zdot_3s - (acc1u + U1_0sf_x * zdot_1)))));
+  const detail::Lanes<4, Real> al1_0_z = zdot_3s - zdot_6;
+  const detail::Lanes<4, Real> yh_7 = GD7n_z * al1_0_z + (GD7f_z * acc1o_xs + (GD7n_y * zdot_5s + (GD7n_x *
+      zdot_4s + (GD7f_y * acc1o_zs + (y_7 - GD7f_x * zdot_1)))));
+  const detail::Lanes<4, Real> zdot_8 = L_8_7 * yh_7 - (GD8n_z * al1_0_z + (GD8f_z * acc1o_xs - (GD8n_y *
+      zdot_5s + (GD8n_x * zdot_4s - (GD8f_y * acc1o_zs - (y_8 + GD8f_x * zdot_1))))));
+  const Real vdot0_x = q0r0_z * zdot_2 - (q0r0_x * acc0u - q0r0_y * zdot_1);
+  const Real vdot0_y = q0r1_z * zdot_2 + (q0r1_x * acc0u - q0r1_y * zdot_1);
+  const Real zdot_2_2 = q0r2_z * zdot_2 - (q0r2_y * zdot_1 + (q0r2_x * acc0u + Real(9.81)));
   zdot[0] = -vdot0_x;
-  zdot[1] = vdot0_y;
-  zdot[2] = -zdot_2_2;
-  zdot[3] = zdot_3;
+  zdot[1] = -vdot0_y;
+  zdot[2] = zdot_2_2;
+  zdot[3] = -zdot_3;
   zdot[4] = zdot_4;
   zdot[5] = -zdot_5;
-  zdot[6] = -zdot_6[0];
-  zdot[7] = -yh_7[0];
+  zdot[6] = zdot_6[0];
+  zdot[7] = yh_7[0];
   zdot[8] = -zdot_8[0];
-  zdot[9] = zdot_6[1];
-  zdot[10] = -yh_7[1];
+  zdot[9] = -zdot_6[1];
+  zdot[10] = yh_7[1];
   zdot[11] = -zdot_8[1];
-  zdot[12] = -zdot_6[2];
-  zdot[13] = -yh_7[2];
+  zdot[12] = zdot_6[2];
+  zdot[13] = yh_7[2];
   zdot[14] = -zdot_8[2];
-  zdot[15] = zdot_6[3];
-  zdot[16] = -yh_7[3];
+  zdot[15] = -zdot_6[3];
+  zdot[16] = yh_7[3];
   zdot[17] = -zdot_8[3];
-  zdot[18] = -expression_34[0];
-  zdot[19] = expression_41[0];
-  zdot[20] = expression_34[2];
-  zdot[21] = -expression_41[2];
-  zdot[22] = expression_34[1];
-  zdot[23] = -expression_41[1];
-  zdot[24] = expression_34[3];
-  zdot[25] = -expression_41[3];
+  zdot[18] = expression_32[0];
+  zdot[19] = -expression_39[0];
+  zdot[20] = expression_32[2];
+  zdot[21] = -expression_39[2];
+  zdot[22] = -expression_32[1];
+  zdot[23] = expression_39[1];
+  zdot[24] = -expression_32[3];
+  zdot[25] = expression_39[3];
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -2308,7 +2251,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real q001 = q0d1 * state.y[3];
   const Real q002 = q0d2 * state.y[3];
   const Real q003 = q0d3 * state.y[3];
-  const Real q0r0_x = q022 + q033 - Real(1.0);
+  const Real q0r0_x = q033 + (q022 - Real(1.0));
   const Real q0r0_y = q012 - q003;
   const Real q0r0_z = q013 + q002;
   const Real q0r1_x = q012 + q003;
@@ -2357,16 +2300,16 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const detail::Lanes<4, Real> J2 = detail::Lanes<4, Real>{Real(0.010801999999999999),
       Real(0.010801999999999999), Real(0.011708), Real(0.011708)} + t37s * detail::Lanes<4,
       Real>{Real(0.00567), Real(0.00567), Real(0.00672), Real(0.00672)};
-  const detail::Lanes<4, Real> S2_xx = s2s * S2b_t - (detail::Lanes<4, Real>{Real(0.008712), Real(0.008712),
-      Real(0.009153), Real(0.009153)} + (S3b_xx - Real(2.0) * (r3_x * h3b_x)));
-  const detail::Lanes<4, Real> S2_xy = S2b_xy - (r3_y * h3b_x + (S3b_xy - r3_x * h3b_y));
+  const detail::Lanes<4, Real> S2_xx = S3b_xx - (h3b_x * (Real(2.0) * r3_x) - (detail::Lanes<4,
+      Real>{Real(0.008712), Real(0.008712), Real(0.009153), Real(0.009153)} - s2s * S2b_t));
+  const detail::Lanes<4, Real> S2_xy = S3b_xy - S2b_xy - (r3_x * h3b_y - r3_y * h3b_x);
   const detail::Lanes<4, Real> S2_xz = S3b_xz - S2b_xz;
   const detail::Lanes<4, Real> S2_yz = S3b_yz + S2b_yz;
-  const detail::Lanes<4, Real> S2_yy = J2 + S2_xx;
+  const detail::Lanes<4, Real> S2_yy = J2 - S2_xx;
   const detail::Lanes<4, Real> S2c_xz = detail::Lanes<4, Real>{Real(0.0147372), Real(0.0147372),
       Real(-0.014855), Real(-0.014855)} - S2_yz;
-  const detail::Lanes<4, Real> S2c_yy = Real(0.00025) - S2_xx;
-  const detail::Lanes<4, Real> S2c_yz = S2_xy + detail::Lanes<4, Real>{Real(0.19), Real(0.19), Real(-0.19),
+  const detail::Lanes<4, Real> S2c_yy = Real(0.00025) + S2_xx;
+  const detail::Lanes<4, Real> S2c_yz = S2_xy - detail::Lanes<4, Real>{Real(0.19), Real(0.19), Real(-0.19),
       Real(-0.19)} * h2_x;
   const detail::Lanes<4, Real> S1b_zz = detail::Lanes<4, Real>{Real(0.00539936), Real(0.00539936),
       Real(0.0054378000000000004), Real(0.0054378000000000004)} + S2c_yy;
@@ -2375,53 +2318,54 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t291 = -s4;
   const Real t292 = -s10;
   const detail::Lanes<4, Real> c1s = {c1, c4, c7, c10};
-  const detail::Lanes<4, Real> s1s_2 = {s1, t291, s7, t292};
-  const detail::Lanes<4, Real> S1b_t = Real(2.0) * (c1s * S2_xz) + s1s_2 * S1b_d;
+  const detail::Lanes<4, Real> s1s_3 = {s1, t291, s7, t292};
+  const detail::Lanes<4, Real> S1b_t = S2_xz * (Real(2.0) * c1s) + s1s_3 * S1b_d;
   const detail::Lanes<4, Real> S1b_xx = detail::Lanes<4, Real>{Real(0.00539936), Real(0.00539936),
-      Real(0.0054378000000000004), Real(0.0054378000000000004)} - s1s_2 * S1b_t;
+      Real(0.0054378000000000004), Real(0.0054378000000000004)} - s1s_3 * S1b_t;
   const detail::Lanes<4, Real> S1b_xy = S2_xz - c1s * S1b_t;
   const Real t317 = -c4;
   const Real t319 = -c10;
-  const detail::Lanes<4, Real> S1b_xz = detail::Lanes<4, Real>{c1, t317, -c7, t319} * S2c_xz -
-      detail::Lanes<4, Real>{s1, s4, -s7, s10} * S2c_yz;
-  const detail::Lanes<4, Real> S1b_yz = c1s * S2c_yz + s1s_2 * S2c_xz;
+  const Real t324 = -s7;
+  const detail::Lanes<4, Real> s1s_2 = {s1, s4, t324, s10};
+  const detail::Lanes<4, Real> S1b_xz = detail::Lanes<4, Real>{c1, t317, -c7, t319} * S2c_xz + s1s_2 * S2c_yz;
+  const detail::Lanes<4, Real> S1b_yz = c1s * S2c_yz - s1s_3 * S2c_xz;
   const detail::Lanes<4, Real> S1b_yy = S1b_zz - S1b_xx;
   const detail::Lanes<4, Real> h1b_x = c1s * detail::Lanes<4, Real>{Real(0.07788), Real(0.07788),
-      Real(0.0785), Real(0.0785)} - s1s_2 * h2_x;
+      Real(0.0785), Real(0.0785)} - s1s_3 * h2_x;
   const detail::Lanes<4, Real> s1s = {s1, s4, s7, s10};
   const detail::Lanes<4, Real> c1s_2 = {c1, t317, c7, t319};
   const detail::Lanes<4, Real> h1b_y = s1s * detail::Lanes<4, Real>{Real(0.07788), Real(0.07788),
       Real(0.0785), Real(0.0785)} + c1s_2 * h2_x;
   const Real t375 = h2_y[1] + h2_y[0];
   const Real t376 = h2_y[3] + h2_y[2];
-  const Real h1c_x = t375 + t376 + Real(0.0038000000000000035);
-  const Real h1c_y = h1b_x[0] - (h1b_x[1] + (h1b_x[3] - h1b_x[2]));
-  const Real h1c_z = h1b_y[0] - (h1b_y[1] + (h1b_y[3] - h1b_y[2]));
-  const Real S1c_xx = (t375 - t376) * Real(0.38) - (S2_yy[0] + (S2_yy[1] + (S2_yy[3] + S2_yy[2]))) -
-      Real(0.22637000000000002);
-  const Real S1c_xy = (h2_y[0] - (h2_y[1] + (h2_y[3] - h2_y[2]))) * Real(0.05) - (S1b_xz[3] - (S1b_xz[2] -
-      (S1b_xz[1] + S1b_xz[0])));
-  const Real S1c_xz = S1b_yz[0] + (S1b_yz[1] + (S1b_yz[3] + S1b_yz[2]));
-  const Real S1c_yy = (h1b_x[0] + (h1b_x[1] + (h1b_x[3] + h1b_x[2]))) * Real(0.1) + (S1b_xx[3] + (S1b_xx[2] +
-      (S1b_xx[1] + S1b_xx[0]))) + Real(0.02215);
-  const Real S1c_yz = Real(0.05) * (h1b_y[0] + (h1b_y[1] + (h1b_y[3] + h1b_y[2]))) + (S1b_xy[3] - (S1b_xy[2] -
-      (S1b_xy[1] - S1b_xy[0])));
-  const Real S1c_zz = S1b_yy[0] + (S1b_yy[1] + (S1b_yy[3] + S1b_yy[2])) + Real(0.0024000000000000002);
-  const Real S0b_zz = S1c_xx - S1c_yy;
+  const Real h1c_x = t376 + (t375 + Real(0.0038000000000000035));
+  const Real h1c_y = h1b_x[3] - h1b_x[2] + (h1b_x[1] - h1b_x[0]);
+  const Real h1c_z = h1b_y[3] - h1b_y[2] + (h1b_y[1] - h1b_y[0]);
+  const Real S1c_xx = S2_yy[0] - (t375 - t376) * Real(0.38) + (S2_yy[3] + Real(0.22637000000000002) +
+      (S2_yy[2] + S2_yy[1]));
+  const Real S1c_xy = S1b_xz[2] - S1b_xz[1] - (S1b_xz[0] + (S1b_xz[3] + (h2_y[3] - h2_y[2] + (h2_y[1] -
+      h2_y[0])) * Real(0.05)));
+  const Real S1c_xz = S1b_yz[3] + S1b_yz[2] + (S1b_yz[1] + S1b_yz[0]);
+  const Real S1c_yy = S1b_xx[2] + S1b_xx[1] + (S1b_xx[0] + (S1b_xx[3] + ((h1b_x[3] + h1b_x[2] + (h1b_x[1] +
+      h1b_x[0])) * Real(0.1) + Real(0.02215))));
+  const Real S1c_yz = S1b_xy[2] - S1b_xy[1] + (S1b_xy[0] - (S1b_xy[3] + Real(0.05) * (h1b_y[3] + h1b_y[2] +
+      (h1b_y[1] + h1b_y[0]))));
+  const Real S1c_zz = S1b_yy[2] + S1b_yy[1] + (S1b_yy[0] + (S1b_yy[3] + Real(0.0024000000000000002)));
+  const Real S0b_zz = S1c_xx + S1c_yy;
   const Real Jx0 = S1c_yy + S1c_zz;
-  const Real Jy0 = S1c_xx - S1c_zz;
-  const detail::Lanes<4, Real> g8 = {state.z[6], state.z[9], state.z[12], state.z[15]};
-  const detail::Lanes<4, Real> w1_z = state.z[3] + g8;
-  const detail::Lanes<4, Real> w2pp_x = c1s_2 * state.z[4] + s1s_2 * state.z[5];
+  const Real Jy0 = S1c_xx + S1c_zz;
+  const detail::Lanes<4, Real> g9 = {state.z[6], state.z[9], state.z[12], state.z[15]};
+  const detail::Lanes<4, Real> w1_z = state.z[3] + g9;
+  const detail::Lanes<4, Real> w2pp_x = c1s_2 * state.z[4] + s1s_3 * state.z[5];
   const detail::Lanes<4, Real> w2pp_y = s1s * state.z[4] - c1s * state.z[5];
   const Real t471 = -state.z[10];
   const Real t474 = -state.z[16];
-  const detail::Lanes<4, Real> g12 = {state.z[7], t471, state.z[13], t474};
-  const detail::Lanes<4, Real> w2_z = w2pp_x + g12;
+  const detail::Lanes<4, Real> g13 = {state.z[7], t471, state.z[13], t474};
+  const detail::Lanes<4, Real> w2_z = w2pp_x + g13;
   const Real t481 = -state.z[11];
   const Real t484 = -state.z[17];
-  const detail::Lanes<4, Real> g14 = {state.z[8], t481, state.z[14], t484};
-  const detail::Lanes<4, Real> w3_z = w2_z + g14;
+  const detail::Lanes<4, Real> g15 = {state.z[8], t481, state.z[14], t484};
+  const detail::Lanes<4, Real> w3_z = w2_z + g15;
   const detail::Lanes<4, Real> stretch2 = detail::Lanes<4, Real>{state.y[8], state.y[11], state.y[14],
       state.y[17]} + Real(0.8);
   const detail::Lanes<4, Real> stretch3 = detail::Lanes<4, Real>{state.y[9], state.y[12], state.y[15],
@@ -2432,143 +2376,141 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const detail::Lanes<4, Real> front_foot1x3_y = r3_y + front_foot1x_y;
   const detail::Lanes<4, Real> front_foot1x2p_z = detail::Lanes<4, Real>{Real(0.19), Real(0.19), Real(-0.19),
       Real(-0.19)} - front_foot1x3_y;
-  const detail::Lanes<4, Real> front_foot1x2_x = c1s * Real(0.062) + s1s_2 * front_foot1x3_x;
+  const detail::Lanes<4, Real> front_foot1x2_x = c1s * Real(0.062) + s1s_3 * front_foot1x3_x;
   const detail::Lanes<4, Real> front_foot1x2_y = s1s * Real(0.062) - c1s_2 * front_foot1x3_x;
   const detail::Lanes<4, Real> front_foot1x1p_y = Real(0.05) + front_foot1x2_x;
   const Real t575 = -q0r2_x;
-  const detail::Lanes<4, Real> t576 = detail::Lanes<4, Real>{q0r2_x, q0r2_x, t575, t575} * front_foot1x2p_z;
-  const detail::Lanes<4, Real> t581 = detail::Lanes<4, Real>{q0r2_y, q0r2_y, q0r2_y, -q0r2_y} *
-      front_foot1x1p_y;
+  const Real t580 = -q0r2_y;
   const Real t585 = -q0r2_z;
-  const detail::Lanes<4, Real> t586 = detail::Lanes<4, Real>{q0r2_z, q0r2_z, q0r2_z, t585} * front_foot1x2_y;
-  const Real expression = t586[0] - (t581[0] + (state.y[2] + t576[0])) + Real(0.02);
-  const detail::Lanes<4, Real> g13 = {state.z[8], state.z[11], state.z[14], state.z[17]};
-  const detail::Lanes<4, Real> front_foot1v3_x = g13 * front_foot1x_y;
-  const detail::Lanes<4, Real> front_foot1v3_y = g13 * front_foot1x_x;
-  const detail::Lanes<4, Real> g11 = {state.z[7], state.z[10], state.z[13], state.z[16]};
-  const detail::Lanes<4, Real> front_foot1v2_x = front_foot1v3_x + g11 * front_foot1x3_y;
-  const detail::Lanes<4, Real> front_foot1v2p_x = s1s_2 * front_foot1v2_x;
+  const Real t592 = state.y[2] - Real(0.02);
+  const Real t593 = -t592;
+  const detail::Lanes<4, Real> expression = detail::Lanes<4, Real>{q0r2_y, t580, t580, q0r2_y} *
+      front_foot1x1p_y - (detail::Lanes<4, Real>{q0r2_z, t585, t585, q0r2_z} * front_foot1x2_y -
+      (detail::Lanes<4, Real>{q0r2_x, q0r2_x, t575, t575} * front_foot1x2p_z + detail::Lanes<4, Real>{t592,
+      t592, t593, t593}));
+  const detail::Lanes<4, Real> g14 = {state.z[8], state.z[11], state.z[14], state.z[17]};
+  const detail::Lanes<4, Real> front_foot1v3_x = g14 * front_foot1x_y;
+  const detail::Lanes<4, Real> front_foot1v3_y = g14 * front_foot1x_x;
+  const detail::Lanes<4, Real> g12 = {state.z[7], state.z[10], state.z[13], state.z[16]};
+  const detail::Lanes<4, Real> front_foot1v2_x = front_foot1v3_x + g12 * front_foot1x3_y;
+  const detail::Lanes<4, Real> front_foot1v2p_x = s1s_3 * front_foot1v2_x;
   const detail::Lanes<4, Real> front_foot1v2p_y = c1s * front_foot1v2_x;
-  const Real vrel0_x = q0r2_x * state.z[2] - (q0r0_x * state.z[0] - q0r1_x * state.z[1]);
-  const Real vrel0_y = q0r2_y * state.z[2] + (q0r0_y * state.z[0] - q0r1_y * state.z[1]);
+  const Real vrel0_x = q0r0_x * state.z[0] - (q0r1_x * state.z[1] + q0r2_x * state.z[2]);
+  const Real vrel0_y = q0r1_y * state.z[1] - (q0r0_y * state.z[0] + q0r2_y * state.z[2]);
   const Real vrel0_z = q0r2_z * state.z[2] - (q0r0_z * state.z[0] + q0r1_z * state.z[1]);
-  const Real t648 = -state.z[4];
-  const Real t653 = -state.z[5];
-  const detail::Lanes<4, Real> g10 = {state.z[5], t653, state.z[5], t653};
-  const detail::Lanes<4, Real> g9 = {state.z[4], t648, state.z[4], t648};
-  const detail::Lanes<4, Real> front_foot1v0_x = g10 * front_foot1x1p_y - (g9 * front_foot1x2_y - (g11 *
-      front_foot1x3_x - (front_foot1v3_y + vrel0_x)));
-  const Real t682 = -vrel0_y;
-  const detail::Lanes<4, Real> front_foot1v0_y = w1_z * front_foot1x2_y - (g10 * front_foot1x2p_z -
-      (front_foot1v2p_x - detail::Lanes<4, Real>{vrel0_y, t682, vrel0_y, t682}));
-  const Real t695 = -state.z[3];
-  const detail::Lanes<4, Real> front_foot1v0_z = state.z[4] * front_foot1x2p_z - (detail::Lanes<4,
-      Real>{state.z[3], t695, state.z[3], t695} * front_foot1x1p_y + (detail::Lanes<4, Real>{state.z[6],
-      -state.z[9], state.z[12], -state.z[15]} * front_foot1x2_x + (front_foot1v2p_y - vrel0_z)));
+  const Real t658 = -state.z[4];
+  const Real t663 = -state.z[5];
+  const detail::Lanes<4, Real> g11 = {state.z[5], t663, state.z[5], t663};
+  const detail::Lanes<4, Real> g10 = {state.z[4], t658, state.z[4], t658};
+  const detail::Lanes<4, Real> front_foot1v0_x = g11 * front_foot1x1p_y - (g10 * front_foot1x2_y - (g12 *
+      front_foot1x3_x - (front_foot1v3_y - vrel0_x)));
+  const Real t692 = -vrel0_y;
+  const detail::Lanes<4, Real> front_foot1v0_y = detail::Lanes<4, Real>{vrel0_y, t692, vrel0_y, t692} - g11 *
+      front_foot1x2p_z + (front_foot1v2p_x + w1_z * front_foot1x2_y);
+  const Real t705 = -state.z[3];
+  const detail::Lanes<4, Real> front_foot1v0_z = front_foot1v2p_y + detail::Lanes<4, Real>{state.z[6],
+      -state.z[9], state.z[12], -state.z[15]} * front_foot1x2_x + (detail::Lanes<4, Real>{state.z[3], t705,
+      state.z[3], t705} * front_foot1x1p_y - (vrel0_z + state.z[4] * front_foot1x2p_z));
   const detail::Lanes<4, Real> front_foot1v0pp_z = detail::Lanes<4, Real>{q0r2_z, t585, q0r2_z, t585} *
-      front_foot1v0_z - (detail::Lanes<4, Real>{q0r2_x, t575, q0r2_x, t575} * front_foot1v0_x + q0r2_y *
+      front_foot1v0_z + (detail::Lanes<4, Real>{q0r2_x, t575, q0r2_x, t575} * front_foot1v0_x + q0r2_y *
       front_foot1v0_y);
   const detail::Lanes<4, Real> expression_2 = front_foot1v0pp_z * detail::Lanes<4, Real>{Real(5.0),
-      Real(-5.0), Real(-5.0), Real(5.0)};
-  const detail::Lanes<4, Real> expression_3 = detail::Lanes<4, Real>{Real(1.0), Real(1.0), Real(-1.0),
-      Real(-1.0)} - expression_2;
-  const Real expression_4 = state.z[18] * Real(2000.0);
-  const Real t755 = -q0r0_x;
-  const Real t764 = -q0r0_z;
+      Real(-5.0), Real(5.0), Real(-5.0)};
+  const detail::Lanes<4, Real> expression_3 = Real(1.0) + expression_2;
+  const Real t761 = -model.ground;
+  const detail::Lanes<4, Real> expression_4 = expression_3 * (expression * detail::Lanes<4,
+      Real>{model.ground, t761, t761, model.ground});
+  const Real expression_5 = detail::larger(-expression_4[0], Real(0.0));
+  const Real expression_6 = detail::where_negative(expression[0], expression_5);
+  const Real expression_7 = state.z[18] * Real(2000.0);
+  const Real t777 = -q0r0_x;
+  const Real t786 = -q0r0_z;
   const detail::Lanes<4, Real> spin_front_foot1_2_x = c1s_2 * w3_z + s1s * w2pp_y;
-  const detail::Lanes<4, Real> spin_front_foot1_2_y = c1s * w2pp_y - s1s_2 * w3_z;
+  const detail::Lanes<4, Real> spin_front_foot1_2_y = c1s * w2pp_y - s1s_3 * w3_z;
   const detail::Lanes<4, Real> spin_front_foot1_0p_y = q0r1_z * spin_front_foot1_2_y - (q0r1_x * w1_z - q0r1_y
       * spin_front_foot1_2_x);
-  const detail::Lanes<4, Real> expression_5 = detail::Lanes<4, Real>{Real(0.02), Real(-0.02), Real(0.02),
+  const detail::Lanes<4, Real> expression_8 = detail::Lanes<4, Real>{Real(0.02), Real(-0.02), Real(0.02),
       Real(-0.02)} * spin_front_foot1_0p_y;
-  const detail::Lanes<4, Real> expression_6 = expression_5 - (detail::Lanes<4, Real>{q0r0_z, t764, q0r0_z,
-      t764} * front_foot1v0_z - (detail::Lanes<4, Real>{q0r0_x, t755, q0r0_x, t755} * front_foot1v0_x - q0r0_y
-      * front_foot1v0_y));
-  const detail::Lanes<4, Real> expression_7 = expression_6 * expression_6;
-  const Real t834 = -q0r1_x;
-  const Real t843 = -q0r1_z;
+  const detail::Lanes<4, Real> expression_9 = detail::Lanes<4, Real>{q0r0_x, t777, q0r0_x, t777} *
+      front_foot1v0_x - q0r0_y * front_foot1v0_y + (detail::Lanes<4, Real>{q0r0_z, t786, q0r0_z, t786} *
+      front_foot1v0_z + expression_8);
+  const detail::Lanes<4, Real> expression_10 = expression_9 * expression_9;
+  const Real t856 = -q0r1_x;
+  const Real t865 = -q0r1_z;
   const detail::Lanes<4, Real> spin_front_foot1_0p_x = q0r0_z * spin_front_foot1_2_y + (q0r0_x * w1_z - q0r0_y
       * spin_front_foot1_2_x);
-  const detail::Lanes<4, Real> expression_8 = detail::Lanes<4, Real>{Real(0.02), Real(-0.02), Real(0.02),
+  const detail::Lanes<4, Real> expression_11 = detail::Lanes<4, Real>{Real(0.02), Real(-0.02), Real(0.02),
       Real(-0.02)} * spin_front_foot1_0p_x;
-  const detail::Lanes<4, Real> expression_9 = expression_8 + (detail::Lanes<4, Real>{q0r1_z, t843, q0r1_z,
-      t843} * front_foot1v0_z + (detail::Lanes<4, Real>{q0r1_x, t834, q0r1_x, t834} * front_foot1v0_x - q0r1_y
-      * front_foot1v0_y));
-  const detail::Lanes<4, Real> expression_10 = expression_9 * expression_9;
-  const detail::Lanes<4, Real> expression_11 = expression_7 + expression_10 + Real(1.0000000000000001e-16);
-  const Real expression_12 = detail::square_root(expression_11[0]);
-  const Real expression_13 = Real(2000.0) * state.z[19];
-  const Real t900 = state.y[2] - Real(0.02);
-  const detail::Lanes<2, Real> expression_14 = detail::Lanes<2, Real>{t586[2], t586[3]} - (detail::Lanes<2,
-      Real>{t581[2], t581[3]} - (detail::Lanes<2, Real>{t576[2], t576[3]} - t900));
-  const Real expression_15 = Real(2000.0) * state.z[20];
-  const Real expression_16 = detail::square_root(expression_11[2]);
-  const Real expression_17 = Real(2000.0) * state.z[21];
-  const Real expression_18 = t586[1] - (t581[1] - (t900 + t576[1]));
-  const detail::Lanes<4, Real> expression_19 = detail::Lanes<4, Real>{expression, expression_18,
-      expression_14[0], expression_14[1]} * expression_3 * detail::Lanes<4, Real>{model.ground, model.ground,
-      -model.ground, model.ground};
-  const Real expression_20 = detail::larger(expression_19[0], Real(0.0));
-  const Real expression_21 = detail::where_negative(-expression, expression_20);
-  const Real expression_22 = detail::larger(expression_19[2], Real(0.0));
-  const Real expression_23 = detail::where_negative(-expression_14[0], expression_22);
-  const Real expression_24 = detail::larger(-expression_19[1], Real(0.0));
-  const Real expression_25 = detail::where_negative(expression_18, expression_24);
-  const Real expression_26 = Real(2000.0) * state.z[22];
-  const Real expression_27 = detail::square_root(expression_11[1]);
-  const Real expression_28 = Real(2000.0) * state.z[23];
-  const Real expression_29 = detail::larger(-expression_19[3], Real(0.0));
-  const Real expression_30 = detail::where_negative(-expression_14[1], expression_29);
-  const Real expression_31 = Real(2000.0) * state.z[24];
-  const Real expression_32 = detail::square_root(expression_11[3]);
-  const detail::Lanes<4, Real> expression_12s = {expression_12, expression_27, expression_16, expression_32};
-  const detail::Lanes<4, Real> expression_33 = detail::Lanes<4, Real>{expression_4, -expression_26,
-      expression_15, -expression_31} * expression_12s * model.c4;
-  const detail::Lanes<4, Real> expression_34 = expression_6 - expression_33;
-  const detail::Lanes<4, Real> expression_35 = expression_34 * detail::Lanes<4, Real>{Real(10.0), Real(-10.0),
-      Real(10.0), Real(-10.0)};
-  const detail::Lanes<4, Real> expression_36 = detail::Lanes<4, Real>{expression_4, expression_26,
-      expression_15, expression_31} + expression_35;
-  const detail::Lanes<4, Real> expression_21s = {expression_21, expression_25, expression_23, expression_30};
-  const detail::Lanes<4, Real> expression_37 = expression_21s * expression_36;
-  const detail::Lanes<4, Real> expression_38 = Real(0.02) * expression_37;
-  const Real expression_39 = Real(2000.0) * state.z[25];
-  const Real t1014 = -model.c4;
-  const detail::Lanes<4, Real> expression_13s = {expression_13, expression_28, expression_17, expression_39};
-  const detail::Lanes<4, Real> expression_40 = detail::Lanes<4, Real>{model.c4, t1014, model.c4, t1014} *
-      (expression_12s * expression_13s);
-  const detail::Lanes<4, Real> expression_41 = expression_9 + expression_40;
-  const detail::Lanes<4, Real> expression_42 = detail::Lanes<4, Real>{Real(10.0), Real(-10.0), Real(10.0),
-      Real(-10.0)} * expression_41;
-  const detail::Lanes<4, Real> expression_43 = expression_13s - expression_42;
-  const detail::Lanes<4, Real> expression_44 = expression_21s * expression_43;
-  const detail::Lanes<4, Real> expression_45 = Real(0.02) * expression_44;
-  const detail::Lanes<4, Real> front_sole1n0_y = q0r0_y * expression_45 + q0r1_y * expression_38;
-  const detail::Lanes<4, Real> front_sole1n0_z = q0r0_z * expression_45 - q0r1_z * expression_38;
-  const detail::Lanes<4, Real> t1083 = c1s * front_sole1n0_z;
-  const detail::Lanes<4, Real> t1087 = s1s * front_sole1n0_y;
-  const detail::Lanes<4, Real> front_sole1f0_x = detail::Lanes<4, Real>{q0r2_x * expression_21, q0r2_x *
-      expression_25, q0r2_x * expression_23, q0r2_x * expression_30} + (q0r0_x * expression_37 - q0r1_x *
-      expression_44);
-  const detail::Lanes<4, Real> t1101 = detail::Lanes<4, Real>{Real(0.062), Real(0.062), Real(0.062),
+  const detail::Lanes<4, Real> expression_12 = detail::Lanes<4, Real>{q0r1_x, t856, q0r1_x, t856} *
+      front_foot1v0_x - q0r1_y * front_foot1v0_y - (detail::Lanes<4, Real>{q0r1_z, t865, q0r1_z, t865} *
+      front_foot1v0_z - expression_11);
+  const detail::Lanes<4, Real> expression_13 = expression_12 * expression_12;
+  const detail::Lanes<4, Real> expression_14 = expression_13 + (expression_10 + Real(1.0000000000000001e-16));
+  const Real expression_15 = detail::square_root(expression_14[0]);
+  const Real expression_16 = Real(2000.0) * state.z[19];
+  const Real expression_17 = detail::larger(-expression_4[2], Real(0.0));
+  const Real expression_18 = detail::where_negative(-expression[2], expression_17);
+  const Real expression_19 = Real(2000.0) * state.z[20];
+  const Real expression_20 = detail::square_root(expression_14[2]);
+  const Real expression_21 = Real(2000.0) * state.z[21];
+  const Real expression_22 = detail::larger(expression_4[1], Real(0.0));
+  const Real expression_23 = detail::where_negative(expression[1], expression_22);
+  const Real expression_24 = Real(2000.0) * state.z[22];
+  const Real expression_25 = detail::square_root(expression_14[1]);
+  const Real expression_26 = Real(2000.0) * state.z[23];
+  const Real expression_27 = detail::larger(expression_4[3], Real(0.0));
+  const Real expression_28 = detail::where_negative(-expression[3], expression_27);
+  const Real expression_29 = Real(2000.0) * state.z[24];
+  const Real expression_30 = detail::square_root(expression_14[3]);
+  const Real t954 = -expression_25;
+  const Real t955 = -expression_30;
+  const detail::Lanes<4, Real> expression_15s = {expression_15, t954, expression_20, t955};
+  const detail::Lanes<4, Real> expression_31 = expression_15s * (detail::Lanes<4, Real>{expression_7,
+      expression_24, expression_19, expression_29} * model.c4);
+  const detail::Lanes<4, Real> expression_32 = expression_9 - expression_31;
+  const detail::Lanes<4, Real> expression_33 = expression_32 * Real(10.0);
+  const detail::Lanes<4, Real> expression_34 = detail::Lanes<4, Real>{expression_7, -expression_24,
+      expression_19, -expression_29} + expression_33;
+  const Real t979 = -expression_23;
+  const Real t980 = -expression_28;
+  const detail::Lanes<4, Real> expression_6s = {expression_6, t979, expression_18, t980};
+  const detail::Lanes<4, Real> expression_35 = expression_6s * expression_34;
+  const detail::Lanes<4, Real> expression_36 = Real(0.02) * expression_35;
+  const Real expression_37 = Real(2000.0) * state.z[25];
+  const detail::Lanes<4, Real> expression_38 = expression_15s * (model.c4 * detail::Lanes<4,
+      Real>{expression_16, expression_26, expression_21, expression_37});
+  const detail::Lanes<4, Real> expression_39 = expression_12 + expression_38;
+  const detail::Lanes<4, Real> expression_40 = Real(10.0) * expression_39;
+  const detail::Lanes<4, Real> expression_41 = detail::Lanes<4, Real>{expression_16, -expression_26,
+      expression_21, -expression_37} - expression_40;
+  const detail::Lanes<4, Real> expression_42 = expression_6s * expression_41;
+  const detail::Lanes<4, Real> expression_43 = Real(0.02) * expression_42;
+  const detail::Lanes<4, Real> front_sole1n0_y = q0r0_y * expression_43 + q0r1_y * expression_36;
+  const detail::Lanes<4, Real> front_sole1n0_z = q0r0_z * expression_43 - q0r1_z * expression_36;
+  const detail::Lanes<4, Real> t1085 = c1s * front_sole1n0_z;
+  const detail::Lanes<4, Real> t1089 = s1s * front_sole1n0_y;
+  const detail::Lanes<4, Real> front_sole1f0_x = q0r1_x * expression_42 - (q0r0_x * expression_35 +
+      detail::Lanes<4, Real>{q0r2_x * expression_6, q0r2_x * expression_23, q0r2_x * expression_18, q0r2_x *
+      expression_28});
+  const detail::Lanes<4, Real> t1103 = detail::Lanes<4, Real>{Real(0.062), Real(0.062), Real(0.062),
       Real(-0.062)} * front_sole1f0_x;
-  const detail::Lanes<4, Real> front_sole1f0_y = detail::Lanes<4, Real>{q0r2_y * expression_21, q0r2_y *
-      expression_25, q0r2_y * expression_23, q0r2_y * expression_30} - (q0r0_y * expression_37 - q0r1_y *
-      expression_44);
-  const detail::Lanes<4, Real> front_sole1f0_z = detail::Lanes<4, Real>{q0r2_z * expression_21, q0r2_z *
-      expression_25, q0r2_z * expression_23, q0r2_z * expression_30} + (q0r0_z * expression_37 + q0r1_z *
-      expression_44);
+  const detail::Lanes<4, Real> front_sole1f0_y = q0r1_y * expression_42 - (q0r0_y * expression_35 -
+      detail::Lanes<4, Real>{q0r2_y * expression_6, q0r2_y * expression_23, q0r2_y * expression_18, q0r2_y *
+      expression_28});
+  const detail::Lanes<4, Real> front_sole1f0_z = q0r1_z * expression_42 + (q0r0_z * expression_35 +
+      detail::Lanes<4, Real>{q0r2_z * expression_6, q0r2_z * expression_23, q0r2_z * expression_18, q0r2_z *
+      expression_28});
   const detail::Lanes<4, Real> front_sole1f2p_x = c1s * front_sole1f0_y - s1s * front_sole1f0_z;
   const detail::Lanes<4, Real> front_sole1f2p_y = c1s * front_sole1f0_z + s1s * front_sole1f0_y;
-  const detail::Lanes<4, Real> t1151 = front_foot1x_y * front_sole1f2p_x;
+  const detail::Lanes<4, Real> t1153 = front_foot1x_y * front_sole1f2p_x;
   const Real fall0_z = zdot[2] + Real(9.81);
-  const Real afallW_x = q0r2_x * fall0_z - (q0r0_x * zdot[0] - q0r1_x * zdot[1]);
-  const Real afallW_y = q0r2_y * fall0_z + (q0r0_y * zdot[0] - q0r1_y * zdot[1]);
+  const Real afallW_x = q0r0_x * zdot[0] - (q0r1_x * zdot[1] + q0r2_x * fall0_z);
+  const Real afallW_y = q0r1_y * zdot[1] - (q0r0_y * zdot[0] + q0r2_y * fall0_z);
   const Real afallW_z = q0r2_z * fall0_z - (q0r0_z * zdot[0] + q0r1_z * zdot[1]);
-  const Real aSu0_x = S1c_xz * state.z[5] - (S1c_xx * state.z[3] + S1c_xy * state.z[4]);
-  const Real aSu0_y = S1c_yz * state.z[5] - (S1c_xy * state.z[3] - S1c_yy * state.z[4]);
-  const Real aSu0_z = S1c_zz * state.z[5] + (S1c_xz * state.z[3] + S1c_yz * state.z[4]);
-  const Real auh0 = h1c_z * state.z[5] - (h1c_x * state.z[3] - h1c_y * state.z[4]);
+  const Real aSu0_x = S1c_xy * state.z[4] - (S1c_xx * state.z[3] - S1c_xz * state.z[5]);
+  const Real aSu0_y = S1c_yz * state.z[5] + (S1c_xy * state.z[3] - S1c_yy * state.z[4]);
+  const Real aSu0_z = S1c_zz * state.z[5] - (S1c_xz * state.z[3] + S1c_yz * state.z[4]);
+  const Real auh0 = h1c_z * state.z[5] + (h1c_x * state.z[3] + h1c_y * state.z[4]);
   const Real aL0w00 = state.z[3] * state.z[3];
   const Real aL0w22 = state.z[5] * state.z[5];
   const Real aL0U1_y = aL0w00 + aL0w22;
@@ -2577,194 +2519,183 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real aL0w12 = state.z[4] * state.z[5];
   const Real aL0U0_y = zdot[5] - aL0w01;
   const Real aL0U2_y = zdot[3] + aL0w12;
-  const Real t1252 = Real(0.05) * aL0U0_y;
-  const detail::Lanes<2, Real> aa1o_x = afallW_x - detail::Lanes<2, Real>{t1252, -t1252};
-  const Real t1256 = Real(0.05) * aL0U1_y;
-  const Real aa1o_y = afallW_y - t1256;
-  const Real t1258 = Real(0.05) * aL0U2_y;
-  const Real aa1o_z = afallW_z - t1258;
-  const detail::Lanes<4, Real> aKx1 = S1b_xy * detail::Lanes<4, Real>{state.z[5], t653, t653, t653} - (S1b_xz
-      * state.z[3] + S1b_xx * detail::Lanes<4, Real>{state.z[4], state.z[4], t648, state.z[4]});
-  const detail::Lanes<4, Real> aKy1 = S1b_yy * state.z[5] + (S1b_yz * state.z[3] - S1b_xy * g9);
-  const detail::Lanes<4, Real> z2_1 = Real(2.0) * g8;
-  const detail::Lanes<4, Real> zz_1 = g8 * g8;
-  const detail::Lanes<4, Real> zw_1 = g8 * (state.z[3] + w1_z);
-  const detail::Lanes<4, Real> aax1 = h1b_x * g9 + h1b_y * g10;
-  const detail::Lanes<4, Real> g18 = {zdot[6], zdot[9], zdot[12], zdot[15]};
-  const detail::Lanes<4, Real> t1353 = h1b_y * g18;
-  const detail::Lanes<4, Real> t1357 = h1b_x * zw_1;
+  const Real t1254 = Real(0.05) * aL0U0_y;
+  const detail::Lanes<2, Real> aa1o_x = afallW_x + detail::Lanes<2, Real>{t1254, -t1254};
+  const Real t1258 = Real(0.05) * aL0U1_y;
+  const Real aa1o_y = afallW_y + t1258;
+  const Real t1260 = Real(0.05) * aL0U2_y;
+  const Real aa1o_z = afallW_z - t1260;
+  const detail::Lanes<4, Real> aKx1 = S1b_xy * detail::Lanes<4, Real>{state.z[5], t663, t663, t663} - (S1b_xz
+      * state.z[3] + S1b_xx * detail::Lanes<4, Real>{state.z[4], state.z[4], t658, state.z[4]});
+  const detail::Lanes<4, Real> aKy1 = S1b_yy * state.z[5] - (S1b_yz * state.z[3] + S1b_xy * g10);
+  const detail::Lanes<4, Real> z2_1 = Real(2.0) * g9;
+  const detail::Lanes<4, Real> zz_1 = g9 * g9;
+  const detail::Lanes<4, Real> zw_1 = g9 * (state.z[3] + w1_z);
+  const detail::Lanes<4, Real> aax1 = h1b_x * g10 + h1b_y * g11;
   const detail::Lanes<4, Real> adf1_z = z2_1 * aax1;
-  const detail::Lanes<4, Real> t1373 = S1b_xz * g18;
-  const detail::Lanes<4, Real> t1377 = S1b_yz * zz_1;
-  const detail::Lanes<4, Real> t1381 = aKy1 * z2_1;
-  const detail::Lanes<4, Real> t1385 = S1b_yz * g18;
-  const detail::Lanes<4, Real> t1389 = S1b_xz * zz_1;
-  const detail::Lanes<4, Real> t1393 = aKx1 * z2_1;
+  const Real t1375 = -zdot[12];
+  const detail::Lanes<4, Real> g18 = {zdot[6], zdot[9], zdot[12], zdot[15]};
   const detail::Lanes<4, Real> adn1_z = S1b_zz * g18;
-  const detail::Lanes<4, Real> aal1o_x = zdot[4] + g8 * state.z[5];
-  const detail::Lanes<4, Real> aal1o_y = zdot[5] - g8 * state.z[4];
-  const Real t1417 = -zdot[3];
-  const detail::Lanes<4, Real> aal1o_z = detail::Lanes<4, Real>{zdot[3], t1417, zdot[3], t1417} +
+  const detail::Lanes<4, Real> aal1o_x = zdot[4] + g9 * state.z[5];
+  const detail::Lanes<4, Real> aal1o_y = zdot[5] - g9 * state.z[4];
+  const Real t1420 = -zdot[3];
+  const detail::Lanes<4, Real> aal1o_z = detail::Lanes<4, Real>{zdot[3], t1420, zdot[3], t1420} +
       detail::Lanes<4, Real>{zdot[6], -zdot[9], zdot[12], -zdot[15]};
   const detail::Lanes<4, Real> aal2p_x = c1s * aal1o_x + s1s * aal1o_y;
-  const detail::Lanes<4, Real> aal2p_y = c1s_2 * aal1o_y - s1s_2 * aal1o_x;
+  const detail::Lanes<4, Real> aal2p_y = c1s_2 * aal1o_y - s1s_3 * aal1o_x;
   const Real aL1w00 = w2pp_x[0] * w2pp_x[0];
   const detail::Lanes<4, Real> aL1w11 = w2pp_y * w2pp_y;
   const detail::Lanes<4, Real> aL1w12 = w1_z * w2pp_y;
   const detail::Lanes<4, Real> aL1U1_z = aal2p_x + aL1w12;
-  const detail::Lanes<4, Real> aKx2 = S2_xz * w2pp_x + (S2_xx * w2pp_y + S2_xy * w1_z);
-  const detail::Lanes<4, Real> aKy2 = S2_yy * w1_z - (S2_xy * w2pp_y + S2_yz * w2pp_x);
-  const detail::Lanes<4, Real> z2_2 = Real(2.0) * g11;
-  const detail::Lanes<4, Real> zz_2 = g12 * g11;
-  const detail::Lanes<4, Real> zw_2 = g12 * (w2pp_x + w2_z);
+  const Real aL1U2_z = aL1w00 + aL1w11[0];
+  const Real t1469 = Real(0.19) * aL1U2_z;
+  const Real aa2o_z = aa1o_x[0] + t1469;
+  const detail::Lanes<4, Real> aKx2 = S2_xy * w1_z + (S2_xx * w2pp_y - S2_xz * w2pp_x);
+  const detail::Lanes<4, Real> aKy2 = S2_yy * w1_z + (S2_xy * w2pp_y - S2_yz * w2pp_x);
+  const detail::Lanes<4, Real> z2_2 = Real(2.0) * g12;
+  const detail::Lanes<4, Real> zz_2 = g13 * g12;
+  const detail::Lanes<4, Real> zw_2 = g13 * (w2pp_x + w2_z);
   const detail::Lanes<4, Real> aax2 = h2_x * w2pp_y + h2_y * w1_z;
   const detail::Lanes<4, Real> adf2_z = z2_2 * aax2;
-  const Real t1577 = -zdot[16];
-  const detail::Lanes<4, Real> t1578 = S2_xz * detail::Lanes<4, Real>{zdot[7], zdot[10], zdot[13], t1577};
-  const detail::Lanes<4, Real> t1582 = S2_yz * zz_2;
-  const detail::Lanes<4, Real> t1586 = aKy2 * z2_2;
-  const detail::Lanes<4, Real> g19 = {zdot[7], zdot[10], zdot[13], zdot[16]};
-  const detail::Lanes<4, Real> adn2_z = J2 * g19;
-  const detail::Lanes<4, Real> aal2o_x = aal2p_y + w1_z * g12;
-  const detail::Lanes<4, Real> aal2o_y = aal1o_z + w2pp_y * g12;
-  const detail::Lanes<4, Real> aal2o_z = aal2p_x + g19;
+  const Real t1583 = -zdot[16];
+  const detail::Lanes<4, Real> t1584 = S2_xz * detail::Lanes<4, Real>{zdot[7], zdot[10], zdot[13], t1583};
+  const detail::Lanes<4, Real> t1588 = S2_yz * zz_2;
+  const detail::Lanes<4, Real> t1592 = aKy2 * z2_2;
+  const detail::Lanes<4, Real> g20 = {zdot[7], zdot[10], zdot[13], zdot[16]};
+  const detail::Lanes<4, Real> adn2_z = J2 * g20;
+  const detail::Lanes<4, Real> aal2o_x = aal2p_y + w1_z * g13;
+  const detail::Lanes<4, Real> aal2o_y = aal1o_z + w2pp_y * g13;
+  const detail::Lanes<4, Real> aal2o_z = aal2p_x + g20;
   const detail::Lanes<4, Real> aW2w11 = w1_z * w1_z;
   const detail::Lanes<4, Real> aW2w22 = w2_z * w2_z;
-  const detail::Lanes<4, Real> aL1U2_z = detail::Lanes<4, Real>{aL1w00, aW2w22[1], aW2w22[2], aW2w22[3]} +
-      aL1w11;
-  const Real t1639 = Real(0.19) * aL1U2_z[0];
-  const Real aa2o_z = aa1o_x[0] - t1639;
   const detail::Lanes<4, Real> aW2U0_x = aW2w11 + aW2w22;
   const detail::Lanes<4, Real> aW2U0_y = aL1w12 + aal2o_z;
   const detail::Lanes<4, Real> aW2U1_x = aL1w12 - aal2o_z;
   const Real aW2U1_y = aL1w11[0] + aW2w22[0];
   const detail::Lanes<4, Real> t1662 = r3_x * aW2U1_x;
-  const detail::Lanes<4, Real> aKx3 = S3b_xz * w2_z - (S3b_xx * w2pp_y + S3b_xy * w1_z);
+  const Real aa3o_y = r3_y[0] * aW2U1_y - (aa2o_z - t1662[0]);
+  const detail::Lanes<4, Real> aKx3 = S3b_xx * w2pp_y + (S3b_xy * w1_z - S3b_xz * w2_z);
   const detail::Lanes<4, Real> aKy3 = S3b_yy * w1_z + (S3b_xy * w2pp_y - S3b_yz * w2_z);
-  const detail::Lanes<4, Real> z2_3 = Real(2.0) * g13;
-  const detail::Lanes<4, Real> zz_3 = g14 * g13;
-  const detail::Lanes<4, Real> zw_3 = g14 * (w2_z + w3_z);
+  const detail::Lanes<4, Real> z2_3 = Real(2.0) * g14;
+  const detail::Lanes<4, Real> zz_3 = g15 * g14;
+  const detail::Lanes<4, Real> zw_3 = g15 * (w2_z + w3_z);
   const detail::Lanes<4, Real> aax3 = h3b_x * w2pp_y + h3b_y * w1_z;
   const detail::Lanes<4, Real> adf3_z = z2_3 * aax3;
-  const Real t1779 = -zdot[17];
-  const detail::Lanes<4, Real> t1780 = S3b_xz * detail::Lanes<4, Real>{zdot[8], zdot[11], zdot[14], t1779};
-  const detail::Lanes<4, Real> t1784 = S3b_yz * zz_3;
-  const detail::Lanes<4, Real> t1788 = aKy3 * z2_3;
-  const detail::Lanes<4, Real> g20 = {zdot[8], zdot[11], zdot[14], zdot[17]};
+  const Real t1781 = -zdot[17];
+  const detail::Lanes<4, Real> t1782 = S3b_xz * detail::Lanes<4, Real>{zdot[8], zdot[11], zdot[14], t1781};
+  const detail::Lanes<4, Real> t1786 = S3b_yz * zz_3;
+  const detail::Lanes<4, Real> t1790 = aKy3 * z2_3;
+  const detail::Lanes<4, Real> g21 = {zdot[8], zdot[11], zdot[14], zdot[17]};
   const detail::Lanes<4, Real> adn3_z = detail::Lanes<4, Real>{Real(0.0018349999999999998),
-      Real(0.0018349999999999998), Real(0.0023000000000000004), Real(0.0023000000000000004)} * g20;
-  const Real aa4o_y = afallW_y + t1256;
-  const Real t1810 = -aa4o_y;
-  const Real aa4o_z = afallW_z + t1258;
-  const Real t1820 = -aa4o_z;
+      Real(0.0018349999999999998), Real(0.0023000000000000004), Real(0.0023000000000000004)} * g21;
+  const Real aa4o_y = afallW_y - t1258;
+  const Real t1812 = -aa4o_y;
+  const Real aa4o_z = afallW_z + t1260;
+  const Real t1822 = -aa4o_z;
   const detail::Lanes<4, Real> aa2o_y = detail::Lanes<4, Real>{Real(0.19), Real(0.19), Real(-0.19),
-      Real(-0.19)} * aL1U1_z + (c1s * detail::Lanes<4, Real>{aa1o_z, aa4o_z, aa1o_z, aa4o_z} + s1s *
+      Real(-0.19)} * aL1U1_z + (c1s * detail::Lanes<4, Real>{aa1o_z, aa4o_z, aa1o_z, aa4o_z} - s1s *
       detail::Lanes<4, Real>{aa1o_y, aa4o_y, aa1o_y, aa4o_y});
-  const detail::Lanes<4, Real> aa3o_x = r3_y * aW2U0_y - (aa2o_y - r3_x * aW2U0_x);
-  const Real aa5o_z = t1639 - aa1o_x[1];
-  const Real aa6o_y = r3_y[1] * aL1U2_z[1] - (aa5o_z - t1662[1]);
-  const detail::Lanes<2, Real> aa8o_z = aa1o_x + t1639;
+  const detail::Lanes<4, Real> aa3o_x = r3_x * aW2U0_x - (aa2o_y - r3_y * aW2U0_y);
+  const Real aa5o_z = t1469 + aa1o_x[1];
+  const Real aW5U1_y = aL1w11[1] + aW2w22[1];
+  const Real aa6o_y = r3_y[1] * aW5U1_y - (aa5o_z - t1662[1]);
+  const detail::Lanes<2, Real> aa8o_z = aa1o_x - t1469;
+  const Real aW8U1_y = aL1w11[2] + aW2w22[2];
+  const Real aW11U1_y = aL1w11[3] + aW2w22[3];
   const detail::Lanes<2, Real> aa9o_y = detail::Lanes<2, Real>{r3_y[2], r3_y[3]} * detail::Lanes<2,
-      Real>{aL1U2_z[2], aL1U2_z[3]} + (aa8o_z + detail::Lanes<2, Real>{t1662[2], t1662[3]});
-  const detail::Lanes<4, Real> aef3_x = h3b_x * zw_3 - (front_sole1f2p_y + h3b_y * g20);
-  const detail::Lanes<4, Real> aef3_y = h3b_y * zw_3 - (front_sole1f0_x - h3b_x * g20);
+      Real>{aW8U1_y, aW11U1_y} - (aa8o_z - detail::Lanes<2, Real>{t1662[2], t1662[3]});
+  const detail::Lanes<4, Real> aef3_x = front_sole1f2p_y + (h3b_y * g21 - h3b_x * zw_3);
+  const detail::Lanes<4, Real> aef3_y = front_sole1f0_x + (h3b_x * g21 + h3b_y * zw_3);
   const detail::Lanes<4, Real> aef3_z = front_sole1f2p_x + adf3_z;
-  const detail::Lanes<4, Real> t1890 = r3_y * detail::Lanes<4, Real>{aW2U1_y, aef3_z[1], aef3_z[2],
-      aef3_z[3]};
-  const Real aa3o_y = t1890[0] + (aa2o_z + t1662[0]);
-  const detail::Lanes<4, Real> aen3_z = adn3_z + (front_foot1x_y * front_sole1f2p_y - (front_foot1x_x *
-      front_sole1f0_x - (c1s * front_sole1n0_y + s1s * front_sole1n0_z)));
-  const detail::Lanes<4, Real> af3c_x = aef3_x - (h2_y * g19 - h2_x * zw_2);
+  const detail::Lanes<4, Real> aen3_z = front_foot1x_y * front_sole1f2p_y + (c1s * front_sole1n0_y + adn3_z +
+      (s1s * front_sole1n0_z + front_foot1x_x * front_sole1f0_x));
+  const detail::Lanes<4, Real> af3c_x = aef3_x + (h2_y * g20 - h2_x * zw_2);
   const detail::Lanes<4, Real> af3c_z = adf2_z + aef3_z;
-  const detail::Lanes<4, Real> an3c_z = r3_y * aef3_x + (r3_x * aef3_y - (adn2_z + aen3_z));
+  const detail::Lanes<4, Real> an3c_z = r3_y * aef3_x + (aen3_z + (adn2_z - r3_x * aef3_y));
   const detail::Lanes<4, Real> an2c_x = an3c_z - detail::Lanes<4, Real>{Real(0.19), Real(0.19), Real(-0.19),
       Real(-0.19)} * af3c_x;
-  const detail::Lanes<4, Real> t1970 = Real(0.19) * af3c_z;
-  const detail::Lanes<2, Real> an8c_y = detail::Lanes<2, Real>{t1970[2], t1970[3]} + (detail::Lanes<2,
-      Real>{t1890[2], t1890[3]} + (detail::Lanes<2, Real>{t1586[2], t1586[3]} - (detail::Lanes<2,
-      Real>{t1582[2], t1582[3]} + (detail::Lanes<2, Real>{t1578[2], t1578[3]} - (detail::Lanes<2,
-      Real>{t1788[2], t1788[3]} - (detail::Lanes<2, Real>{t1784[2], t1784[3]} + (detail::Lanes<2,
-      Real>{t1780[2], t1780[3]} - (detail::Lanes<2, Real>{t1151[2], t1151[3]} + (detail::Lanes<2,
-      Real>{t1101[2], t1101[3]} + (detail::Lanes<2, Real>{t1083[2], t1083[3]} - detail::Lanes<2,
-      Real>{t1087[2], t1087[3]}))))))))));
-  const Real an5c_y = t1970[1] - (t1890[1] + (t1586[1] + (t1578[1] + (t1788[1] + (t1780[1] + (t1151[1] -
-      (t1101[1] - (t1083[1] - t1087[1]))) - t1784[1])) - t1582[1])));
-  const Real an2c_y = t1970[0] - (r3_y[0] * aef3_z[0] + (t1586[0] - (t1582[0] + (t1578[0] - (t1788[0] -
-      (t1784[0] + (t1780[0] - (t1151[0] + (t1101[0] + (t1083[0] - t1087[0]))))))))));
-  const detail::Lanes<4, Real> t2008 = c1s * af3c_z;
-  const detail::Lanes<4, Real> t2012 = s1s * af3c_x;
-  const detail::Lanes<4, Real> af1_y = s1s_2 * af3c_z + (c1s_2 * af3c_x - (h1b_x * g18 - h1b_y * zw_1));
-  const detail::Lanes<4, Real> af1_z = aef3_y + (h2_y * zw_2 + (adf1_z + h2_x * g19));
-  const detail::Lanes<4, Real> t2048 = c1s * an2c_x;
+  const detail::Lanes<4, Real> t1972 = Real(0.19) * af3c_z;
+  const detail::Lanes<2, Real> an8c_y = detail::Lanes<2, Real>{t1972[2], t1972[3]} + (detail::Lanes<2,
+      Real>{r3_y[2] * aef3_z[2], r3_y[3] * aef3_z[3]} + (detail::Lanes<2, Real>{t1153[2], t1153[3]} +
+      (detail::Lanes<2, Real>{t1085[2], t1085[3]} + (detail::Lanes<2, Real>{t1592[2], t1592[3]} +
+      (detail::Lanes<2, Real>{t1790[2], t1790[3]} - (detail::Lanes<2, Real>{t1782[2], t1782[3]} +
+      detail::Lanes<2, Real>{t1786[2], t1786[3]} + (detail::Lanes<2, Real>{t1584[2], t1584[3]} +
+      detail::Lanes<2, Real>{t1588[2], t1588[3]})))) - (detail::Lanes<2, Real>{t1089[2], t1089[3]} +
+      detail::Lanes<2, Real>{t1103[2], t1103[3]}))));
+  const Real an5c_y = t1972[1] - (r3_y[1] * aef3_z[1] + (t1153[1] + (t1085[1] + (t1592[1] + (t1790[1] +
+      (t1782[1] - t1786[1] + (t1584[1] - t1588[1])))) - (t1089[1] - t1103[1]))));
+  const Real an2c_y = t1972[0] - (r3_y[0] * aef3_z[0] + (t1153[0] + (t1085[0] + (t1592[0] + (t1790[0] -
+      (t1782[0] + t1786[0] + (t1584[0] + t1588[0])))) - (t1089[0] + t1103[0]))));
+  const detail::Lanes<4, Real> af1_y = s1s_3 * af3c_z - (c1s_2 * af3c_x + (h1b_x * g18 - h1b_y * zw_1));
+  const detail::Lanes<4, Real> af1_z = aef3_y + (adf1_z + (h2_x * g20 + h2_y * zw_2));
+  const detail::Lanes<4, Real> an1_z = detail::Lanes<4, Real>{Real(0.062), Real(-0.062), Real(0.062),
+      Real(-0.062)} * front_sole1f2p_y - (q0r1_x * expression_36 + (q0r0_x * expression_43 - (aKx2 * z2_2 +
+      (adn1_z + (aKx3 * z2_3 + (S3b_yz * detail::Lanes<4, Real>{zdot[8], -zdot[11], zdot[14], t1781} - S3b_xz
+      * zz_3 + (S2_yz * detail::Lanes<4, Real>{zdot[7], -zdot[10], zdot[13], t1583} - S2_xz * zz_2))))))) +
+      (front_foot1x_x * front_sole1f2p_x - r3_x * aef3_z);
+  const Real af0_x = af1_z[2] + af1_z[1] + (af1_z[0] + (af1_z[3] - (state.z[3] * auh0 - (h1c_y * zdot[5] -
+      (h1c_z * zdot[4] - h1c_x * auw0)))));
+  const detail::Lanes<4, Real> t2125 = s1s_3 * af3c_x + (c1s_2 * af3c_z + (h1b_y * g18 + h1b_x * zw_1));
+  const Real af0_y = t2125[2] - t2125[1] + (t2125[0] + (state.z[4] * auh0 - (h1c_y * auw0 + (h1c_z * zdot[3] -
+      h1c_x * zdot[5]))) - t2125[3]);
+  const Real af0_z = af1_y[2] - af1_y[1] + (af1_y[0] + (state.z[5] * auh0 - (h1c_z * auw0 - (h1c_y * zdot[3] -
+      h1c_x * zdot[4])) - af1_y[3]));
+  const Real an0_x = an1_z[2] + an1_z[1] + (an1_z[0] + (an1_z[3] + (Jx0 * zdot[3] + (S1c_xy * zdot[4] +
+      (S1c_xz * zdot[5] + (h1c_y * afallW_z - h1c_z * afallW_y))) - (state.z[4] * aSu0_z + state.z[5] *
+      aSu0_y)))) - Real(0.05) * (af1_y[3] + af1_y[2] + (af1_y[1] + af1_y[0]));
   const detail::Lanes<4, Real> an2c_ys = {an2c_y, an5c_y, an8c_y[0], an8c_y[1]};
-  const detail::Lanes<4, Real> t2052 = s1s * an2c_ys;
-  const detail::Lanes<4, Real> t2056 = c1s * an2c_ys;
-  const detail::Lanes<4, Real> t2060 = s1s * an2c_x;
-  const detail::Lanes<4, Real> an1_z = r3_x * aef3_z + (aKx2 * z2_2 + (S2_xz * zz_2 - (S2_yz *
-      detail::Lanes<4, Real>{zdot[7], -zdot[10], zdot[13], t1577} - (aKx3 * z2_3 + (S3b_xz * zz_3 - (S3b_yz *
-      detail::Lanes<4, Real>{zdot[8], -zdot[11], zdot[14], t1779} + (front_foot1x_x * front_sole1f2p_x +
-      (detail::Lanes<4, Real>{Real(0.062), Real(-0.062), Real(0.062), Real(-0.062)} * front_sole1f2p_y -
-      (q0r1_x * expression_38 + (q0r0_x * expression_45 - adn1_z))))))))));
-  const Real af0_x = af1_z[0] + (af1_z[1] + (af1_z[2] + (af1_z[3] + (h1c_x * auw0 - (h1c_y * zdot[5] -
-      (state.z[3] * auh0 + h1c_z * zdot[4]))))));
-  const Real af0_y = t2012[0] - (t2008[0] + (t1357[0] + (t1353[0] - (t2012[1] - (t2008[1] - (t1357[1] +
-      (t1353[1] + (t2012[2] - (t2008[2] + (t1357[2] + (t1353[2] - (t2012[3] - (t2008[3] - (t1357[3] +
-      (t1353[3] - (h1c_y * auw0 + (h1c_x * zdot[5] - (state.z[4] * auh0 - h1c_z * zdot[3]))))))))))))))))));
-  const Real af0_z = af1_y[0] + (af1_y[2] + (h1c_z * auw0 - (h1c_x * zdot[4] + (state.z[5] * auh0 + h1c_y *
-      zdot[3])) - af1_y[3]) - af1_y[1]);
-  const Real an0_x = Real(0.05) * (af1_y[0] + (af1_y[1] + (af1_y[3] + af1_y[2]))) + (an1_z[3] + (an1_z[2] +
-      (an1_z[1] + (an1_z[0] + (h1c_z * afallW_y + (h1c_y * afallW_z + (S1c_xz * zdot[5] - (S1c_xy * zdot[4] +
-      (Jx0 * zdot[3] - (state.z[4] * aSu0_z - state.z[5] * aSu0_y))))))))));
-  const Real an0_y = t2052[0] - (t2048[0] - (t1381[0] + (t1377[0] - (t1373[0] - (t2052[1] - (t2048[1] -
-      (t1381[1] + (t1377[1] - (t1373[1] + (t2052[2] + (t2048[2] - (t1381[2] + (t1377[2] + (t1373[2] -
-      (t2052[3] + (t2048[3] - (t1381[3] + (t1377[3] - (t1373[3] - (h1c_z * afallW_x - (h1c_x * afallW_z +
-      (S1c_yz * zdot[5] + (Jy0 * zdot[4] - (S1c_xy * zdot[3] + (state.z[3] * aSu0_z - state.z[5] *
-      aSu0_x)))))))))))))))))))))))));
-  const Real an0_z = Real(0.05) * (af1_z[0] - (af1_z[1] + (af1_z[3] - af1_z[2]))) + (t2060[3] - (t2056[3] -
-      (t1389[3] + (t1385[3] + (t2060[2] - (t2056[2] + (t1389[2] - (t1385[2] + (t2060[1] + (t2056[1] +
-      (t1389[1] + (t1385[1] + (t2060[0] + (t2056[0] - (t1393[0] - (t1389[0] + (t1385[0] + (h1c_y * afallW_x +
-      (h1c_x * afallW_y + (S0b_zz * zdot[5] + (S1c_yz * zdot[4] + (S1c_xz * zdot[3] + (state.z[3] * aSu0_y -
-      state.z[4] * aSu0_x)))))))))))) - t1393[1])))) - t1393[2])))) - t1393[3])));
-  const detail::Lanes<4, Real> tau_1_0 = an1_z + (h1b_y * detail::Lanes<4, Real>{aa1o_y, t1810, aa1o_y, t1810}
-      + (h1b_x * detail::Lanes<4, Real>{aa1o_z, t1820, aa1o_z, t1820} + (S1b_yz * zdot[5] + (S1b_xz *
-      detail::Lanes<4, Real>{zdot[4], zdot[4], -zdot[4], zdot[4]} - (S1b_zz * zdot[3] - (detail::Lanes<4,
-      Real>{state.z[5], state.z[5], t653, state.z[5]} * aKx1 + (state.z[4] * aKy1 - (detail::Lanes<4,
-      Real>{state.y[7], state.y[10], state.y[13], state.y[16]} * model.hold + g8 * model.calm))))))));
-  const detail::Lanes<4, Real> tau_2_0 = an3c_z - (w2pp_y * aKy2 + (w1_z * aKx2 + (S2_yz * aal1o_z - (S2_xz *
-      aal2p_y - (J2 * aal2p_x - (h2_y * aa2o_y - (h2_x * detail::Lanes<4, Real>{aa2o_z, -aa5o_z, aa8o_z[0],
-      aa8o_z[1]} + (model.hold * stretch2 + g11 * model.calm))))))));
-  const detail::Lanes<4, Real> tau_3_0 = aen3_z + (w2pp_y * aKy3 + (w1_z * aKx3 + (h3b_y * aa3o_x + (h3b_x *
-      detail::Lanes<4, Real>{aa3o_y, aa6o_y, aa9o_y[0], aa9o_y[1]} + (S3b_yz * aal2o_y - (S3b_xz * aal2o_x -
-      (detail::Lanes<4, Real>{Real(0.0018349999999999998), Real(0.0018349999999999998),
-      Real(0.0023000000000000004), Real(0.0023000000000000004)} * aal2o_z + (model.hold * stretch3 + g13 *
-      model.calm))))))));
-  const Real tauf0 = zdot[0] * model.front_abduction1_m - (q0r0_z * af0_z + (q0r0_x * af0_x - q0r0_y *
-      af0_y));
-  const Real tauf1 = zdot[1] * model.front_abduction1_m - (q0r1_z * af0_z - (q0r1_x * af0_x - q0r1_y *
-      af0_y));
-  const Real tauf2 = fall0_z * model.front_abduction1_m + (q0r2_z * af0_z + (q0r2_x * af0_x + q0r2_y *
-      af0_y));
-  const detail::Lanes<4, Real> balance_18 = expression_34 - detail::Lanes<4, Real>{zdot[18], -zdot[22],
+  const detail::Lanes<4, Real> g19 = {zdot[6], zdot[9], t1375, zdot[15]};
+  const detail::Lanes<4, Real> t2170 = c1s * an2c_x + (detail::Lanes<4, Real>{s1, s4, t324, t292} * an2c_ys +
+      (aKy1 * z2_1 - (S1b_xz * g19 + S1b_yz * zz_1)));
+  const Real an0_y = t2170[1] + t2170[2] + (t2170[3] + (t2170[0] + (state.z[3] * aSu0_z + (Jy0 * zdot[4] +
+      (S1c_yz * zdot[5] + (state.z[5] * aSu0_x + (S1c_xy * zdot[3] - (h1c_x * afallW_z - h1c_z *
+      afallW_x))))))));
+  const detail::Lanes<4, Real> t2200 = s1s_2 * an2c_x - (detail::Lanes<4, Real>{c1, c4, c7, t319} * an2c_ys -
+      (aKx1 * z2_1 + (S1b_yz * g19 - S1b_xz * zz_1)));
+  const Real an0_z = t2200[1] - t2200[2] + (t2200[3] + (t2200[0] + (Real(0.05) * (af1_z[3] - af1_z[2] +
+      (af1_z[1] - af1_z[0])) + (state.z[3] * aSu0_y + (S0b_zz * zdot[5] + (S1c_yz * zdot[4] - (state.z[4] *
+      aSu0_x - (S1c_xz * zdot[3] + (h1c_x * afallW_y - h1c_y * afallW_x)))))))));
+  const detail::Lanes<4, Real> tau_1_0 = an1_z - (detail::Lanes<4, Real>{state.z[5], state.z[5], t663,
+      state.z[5]} * aKx1 + (state.z[4] * aKy1 - (S1b_zz * zdot[3] + (h1b_y * detail::Lanes<4, Real>{aa1o_y,
+      t1812, aa1o_y, t1812} - (h1b_x * detail::Lanes<4, Real>{aa1o_z, t1822, aa1o_z, t1822} -
+      (detail::Lanes<4, Real>{state.y[7], state.y[10], state.y[13], state.y[16]} * model.hold + g9 *
+      model.calm))) - (S1b_xz * detail::Lanes<4, Real>{zdot[4], zdot[4], -zdot[4], zdot[4]} - S1b_yz *
+      zdot[5]))));
+  const detail::Lanes<4, Real> tau_2_0 = an3c_z + (w2pp_y * aKy2 - (w1_z * aKx2 - (S2_yz * aal1o_z - (S2_xz *
+      aal2p_y - (J2 * aal2p_x + (model.hold * stretch2 + g12 * model.calm))) - (h2_x * detail::Lanes<4,
+      Real>{aa2o_z, aa5o_z, aa8o_z[0], aa8o_z[1]} + h2_y * aa2o_y))));
+  const detail::Lanes<4, Real> tau_3_0 = aen3_z + (h3b_x * detail::Lanes<4, Real>{aa3o_y, aa6o_y, aa9o_y[0],
+      aa9o_y[1]} + h3b_y * aa3o_x + (w2pp_y * aKy3 - (w1_z * aKx3 - (detail::Lanes<4,
+      Real>{Real(0.0018349999999999998), Real(0.0018349999999999998), Real(0.0023000000000000004),
+      Real(0.0023000000000000004)} * aal2o_z + (model.hold * stretch3 + g14 * model.calm) - (S3b_xz * aal2o_x
+      - S3b_yz * aal2o_y)))));
+  const Real tauf0 = q0r0_z * af0_z + (q0r0_y * af0_y + (q0r0_x * af0_x - zdot[0] *
+      model.front_abduction1_m));
+  const Real tauf1 = q0r1_z * af0_z - (q0r1_y * af0_y + (q0r1_x * af0_x + zdot[1] *
+      model.front_abduction1_m));
+  const Real tauf2 = q0r2_z * af0_z - (q0r2_y * af0_y - (q0r2_x * af0_x + fall0_z *
+      model.front_abduction1_m));
+  const detail::Lanes<4, Real> balance_18 = expression_32 - detail::Lanes<4, Real>{zdot[18], -zdot[22],
       zdot[20], -zdot[24]};
-  const detail::Lanes<4, Real> balance_19 = expression_41 + detail::Lanes<4, Real>{zdot[19], -zdot[23],
+  const detail::Lanes<4, Real> balance_19 = expression_39 + detail::Lanes<4, Real>{zdot[19], -zdot[23],
       zdot[21], -zdot[25]};
-  tau[0] = tauf0;
-  tau[1] = tauf1;
+  tau[0] = -tauf0;
+  tau[1] = -tauf1;
   tau[2] = tauf2;
-  tau[3] = -an0_x;
+  tau[3] = an0_x;
   tau[4] = an0_y;
-  tau[5] = -an0_z;
-  tau[6] = -tau_1_0[0];
-  tau[7] = -tau_2_0[0];
+  tau[5] = an0_z;
+  tau[6] = tau_1_0[0];
+  tau[7] = tau_2_0[0];
   tau[8] = tau_3_0[0];
-  tau[9] = -tau_1_0[1];
-  tau[10] = -tau_2_0[1];
+  tau[9] = tau_1_0[1];
+  tau[10] = tau_2_0[1];
   tau[11] = tau_3_0[1];
-  tau[12] = -tau_1_0[2];
-  tau[13] = -tau_2_0[2];
+  tau[12] = tau_1_0[2];
+  tau[13] = tau_2_0[2];
   tau[14] = tau_3_0[2];
-  tau[15] = -tau_1_0[3];
-  tau[16] = -tau_2_0[3];
+  tau[15] = tau_1_0[3];
+  tau[16] = tau_2_0[3];
   tau[17] = tau_3_0[3];
   tau[18] = -balance_18[0];
   tau[19] = balance_19[0];
@@ -2797,7 +2728,7 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real q001 = q0d1 * state.y[3];
   const Real q002 = q0d2 * state.y[3];
   const Real q003 = q0d3 * state.y[3];
-  const Real q0r0_x = q022 + q033 - Real(1.0);
+  const Real q0r0_x = q033 + (q022 - Real(1.0));
   const Real q0r0_y = q012 - q003;
   const Real q0r0_z = q013 + q002;
   const Real q0r1_x = q012 + q003;
@@ -2842,15 +2773,15 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const detail::Lanes<4, Real> J2 = detail::Lanes<4, Real>{Real(0.010801999999999999),
       Real(0.010801999999999999), Real(0.011708), Real(0.011708)} + t37s * detail::Lanes<4,
       Real>{Real(0.00567), Real(0.00567), Real(0.00672), Real(0.00672)};
-  const detail::Lanes<4, Real> S2_xx = Real(2.0) * (r3_x * h3b_x) + (s3 * S3b_t - (detail::Lanes<4,
+  const detail::Lanes<4, Real> S2_xx = h3b_x * (Real(2.0) * r3_x) + (s3 * S3b_t - (detail::Lanes<4,
       Real>{Real(0.010542), Real(0.010542), Real(0.011448), Real(0.011448)} - s2s * S2b_t));
   const detail::Lanes<4, Real> S2_xz = S3b_xz - S2b_xz;
   const detail::Lanes<4, Real> S2_yz = S3b_yz + S2b_yz;
   const detail::Lanes<4, Real> S2c_xz = detail::Lanes<4, Real>{Real(0.0147372), Real(0.0147372),
       Real(-0.014855), Real(-0.014855)} - S2_yz;
   const detail::Lanes<4, Real> S2c_yy = Real(0.00025) - S2_xx;
-  const detail::Lanes<4, Real> S2c_yz = detail::Lanes<4, Real>{Real(0.19), Real(0.19), Real(-0.19),
-      Real(-0.19)} * h2_x + (S2b_xy - (r3_y * h3b_x + (S3b_xy - r3_x * h3b_y)));
+  const detail::Lanes<4, Real> S2c_yz = r3_x * h3b_y - r3_y * h3b_x + (detail::Lanes<4, Real>{Real(0.19),
+      Real(0.19), Real(-0.19), Real(-0.19)} * h2_x - (S3b_xy - S2b_xy));
   const detail::Lanes<4, Real> S1b_zz = detail::Lanes<4, Real>{Real(0.00539936), Real(0.00539936),
       Real(0.0054378000000000004), Real(0.0054378000000000004)} + S2c_yy;
   const detail::Lanes<4, Real> S1b_d = detail::Lanes<4, Real>{Real(0.00539936), Real(0.00539936),
@@ -2859,112 +2790,104 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real t276 = -s10;
   const detail::Lanes<4, Real> c1s = {c1, c4, c7, c10};
   const detail::Lanes<4, Real> s1s_2 = {s1, t275, s7, t276};
-  const detail::Lanes<4, Real> S1b_t = Real(2.0) * (c1s * S2_xz) + s1s_2 * S1b_d;
-  const detail::Lanes<4, Real> s1s = {s1, s4, s7, s10};
-  const detail::Lanes<4, Real> S1b_xx = detail::Lanes<4, Real>{Real(0.00539936), Real(-0.00539936),
-      Real(0.0054378000000000004), Real(-0.0054378000000000004)} - s1s * S1b_t;
-  const detail::Lanes<4, Real> t295 = c1s * S1b_t;
-  const Real t299 = -c4;
-  const Real t300 = -c7;
-  const Real t301 = -c10;
-  const Real t306 = -s7;
-  const detail::Lanes<4, Real> S1b_xz = detail::Lanes<4, Real>{c1, t299, t300, t301} * S2c_xz -
-      detail::Lanes<4, Real>{s1, s4, t306, s10} * S2c_yz;
-  const detail::Lanes<4, Real> S1b_yz = detail::Lanes<4, Real>{c1, c4, t300, t301} * S2c_yz + detail::Lanes<4,
-      Real>{s1, t275, t306, s10} * S2c_xz;
+  const detail::Lanes<4, Real> S1b_t = S2_xz * (Real(2.0) * c1s) + s1s_2 * S1b_d;
+  const detail::Lanes<4, Real> S1b_xx = detail::Lanes<4, Real>{Real(0.00539936), Real(0.00539936),
+      Real(0.0054378000000000004), Real(0.0054378000000000004)} - s1s_2 * S1b_t;
+  const Real t297 = -c4;
+  const Real t299 = -c10;
+  const detail::Lanes<4, Real> S1b_xz = detail::Lanes<4, Real>{c1, t297, -c7, t299} * S2c_xz -
+      detail::Lanes<4, Real>{s1, s4, -s7, s10} * S2c_yz;
+  const detail::Lanes<4, Real> S1b_yz = c1s * S2c_yz + s1s_2 * S2c_xz;
   const detail::Lanes<4, Real> h1b_x = c1s * detail::Lanes<4, Real>{Real(0.07788), Real(0.07788),
       Real(0.0785), Real(0.0785)} - s1s_2 * h2_x;
+  const detail::Lanes<4, Real> s1s = {s1, s4, s7, s10};
+  const detail::Lanes<4, Real> c1s_2 = {c1, t297, c7, t299};
   const detail::Lanes<4, Real> h1b_y = s1s * detail::Lanes<4, Real>{Real(0.07788), Real(0.07788),
-      Real(0.0785), Real(0.0785)} + detail::Lanes<4, Real>{c1, t299, c7, t301} * h2_x;
-  const Real t353 = h2_y[1] + h2_y[0];
-  const Real t354 = h2_y[3] + h2_y[2];
-  const Real h1c_x = t353 + t354 + Real(0.0038000000000000035);
-  const Real h1c_y = h1b_x[0] - (h1b_x[1] + (h1b_x[3] - h1b_x[2]));
-  const Real h1c_z = h1b_y[0] - (h1b_y[1] + (h1b_y[3] - h1b_y[2]));
-  const Real S1c_xx = (t353 - t354) * Real(0.38) - (S2_xx[0] + (J2[0] + (S2_xx[1] + (J2[1] + (S2_xx[2] +
-      (J2[2] + (J2[3] + S2_xx[3]))))))) - Real(0.22637000000000002);
-  const Real S1c_xy = (h2_y[0] - (h2_y[1] + (h2_y[3] - h2_y[2]))) * Real(0.05) - (S1b_xz[3] - (S1b_xz[2] -
-      (S1b_xz[1] + S1b_xz[0])));
-  const Real S1c_xz = S1b_yz[0] + (S1b_yz[1] - (S1b_yz[3] + S1b_yz[2]));
-  const Real S1c_yy = (h1b_x[0] + (h1b_x[1] + (h1b_x[3] + h1b_x[2]))) * Real(0.1) + (S1b_xx[2] + (S1b_xx[0] -
-      S1b_xx[1]) - S1b_xx[3]) + Real(0.02215);
-  const Real S1c_yz = Real(0.05) * (h1b_y[0] + (h1b_y[1] + (h1b_y[3] + h1b_y[2]))) - (t295[3] - (S2_xz[3] +
-      (t295[2] - (S2_xz[2] + (t295[1] - (S2_xz[1] - (S2_xz[0] - t295[0])))))));
-  const Real S1c_zz = S1b_xx[0] - (S1b_zz[0] + (S1b_xx[1] + (S1b_zz[1] - (S1b_xx[2] - (S1b_zz[2] + (S1b_zz[3]
-      + S1b_xx[3])))))) - Real(0.0024000000000000002);
-  const Real S0b_zz = S1c_xx - S1c_yy;
-  const Real Jx0 = S1c_yy - S1c_zz;
+      Real(0.0785), Real(0.0785)} + c1s_2 * h2_x;
+  const Real t351 = h2_y[1] + h2_y[0];
+  const Real t352 = h2_y[3] + h2_y[2];
+  const Real h1c_x = t352 + (t351 + Real(0.0038000000000000035));
+  const Real h1c_y = h1b_x[3] - h1b_x[2] + (h1b_x[1] - h1b_x[0]);
+  const Real h1c_z = h1b_y[3] - h1b_y[2] + (h1b_y[1] - h1b_y[0]);
+  const detail::Lanes<4, Real> t365 = J2 + S2_xx;
+  const Real S1c_xx = t365[2] + t365[3] - ((t351 - t352) * Real(0.38) - Real(0.22637000000000002) - (t365[0] +
+      t365[1]));
+  const Real S1c_xy = S1b_xz[2] - S1b_xz[1] - (S1b_xz[0] + (S1b_xz[3] + (h2_y[3] - h2_y[2] + (h2_y[1] -
+      h2_y[0])) * Real(0.05)));
+  const Real S1c_xz = S1b_yz[3] + S1b_yz[2] + (S1b_yz[1] + S1b_yz[0]);
+  const Real S1c_yy = S1b_xx[2] + S1b_xx[1] + (S1b_xx[0] + (S1b_xx[3] + ((h1b_x[3] + h1b_x[2] + (h1b_x[1] +
+      h1b_x[0])) * Real(0.1) + Real(0.02215))));
+  const detail::Lanes<4, Real> t402 = S2_xz - c1s * S1b_t;
+  const Real S1c_yz = t402[1] - t402[2] + (t402[3] + (Real(0.05) * (h1b_y[3] + h1b_y[2] + (h1b_y[1] +
+      h1b_y[0])) - t402[0]));
+  const detail::Lanes<4, Real> t410 = S1b_zz - S1b_xx;
+  const Real S1c_zz = t410[1] + t410[2] + (t410[3] + (Real(0.0024000000000000002) + t410[0]));
+  const Real S0b_zz = S1c_xx + S1c_yy;
+  const Real Jx0 = S1c_yy + S1c_zz;
   const Real Jy0 = S1c_xx + S1c_zz;
-  const detail::Lanes<4, Real> g7 = {state.z[6], state.z[9], state.z[12], state.z[15]};
-  const detail::Lanes<4, Real> w1_z = state.z[3] + g7;
+  const detail::Lanes<4, Real> g8 = {state.z[6], state.z[9], state.z[12], state.z[15]};
+  const detail::Lanes<4, Real> w1_z = state.z[3] + g8;
   const detail::Lanes<4, Real> w2pp_x = c1s * state.z[4] + s1s * state.z[5];
   const detail::Lanes<4, Real> w2pp_y = s1s * state.z[4] - c1s * state.z[5];
-  const detail::Lanes<4, Real> g8 = {state.z[7], state.z[10], state.z[13], state.z[16]};
-  const detail::Lanes<4, Real> w2_z = w2pp_x + g8;
-  const Real vrel0_x = q0r2_x * state.z[2] - (q0r0_x * state.z[0] - q0r1_x * state.z[1]);
-  const Real vrel0_y = q0r2_y * state.z[2] + (q0r0_y * state.z[0] - q0r1_y * state.z[1]);
+  const detail::Lanes<4, Real> g9 = {state.z[7], state.z[10], state.z[13], state.z[16]};
+  const detail::Lanes<4, Real> w2_z = w2pp_x + g9;
+  const Real vrel0_x = q0r0_x * state.z[0] - (q0r1_x * state.z[1] + q0r2_x * state.z[2]);
+  const Real vrel0_y = q0r1_y * state.z[1] - (q0r0_y * state.z[0] + q0r2_y * state.z[2]);
   const Real vrel0_z = q0r2_z * state.z[2] - (q0r0_z * state.z[0] + q0r1_z * state.z[1]);
   const Real Tph_x = h1c_z * state.z[4] - h1c_y * state.z[5];
-  const Real Tph_y = h1c_z * state.z[3] + h1c_x * state.z[5];
-  const Real Tph_z = h1c_y * state.z[3] + h1c_x * state.z[4];
+  const Real Tph_y = h1c_z * state.z[3] - h1c_x * state.z[5];
+  const Real Tph_z = h1c_y * state.z[3] - h1c_x * state.z[4];
   const Real Tmv_x = state.z[0] * model.c6;
   const Real Tmv_y = state.z[1] * model.c6;
   const Real Tmv_z = state.z[2] * model.c6;
-  const Real t537 = Real(0.05) * state.z[5];
-  const detail::Lanes<2, Real> v1o_x = vrel0_x - detail::Lanes<2, Real>{t537, -t537};
-  const Real t541 = Real(0.05) * state.z[3];
-  const detail::Lanes<2, Real> v1o_z = vrel0_z - detail::Lanes<2, Real>{t541, -t541};
-  const detail::Lanes<4, Real> v1P_x = h1b_y * g7;
-  const detail::Lanes<4, Real> v1P_y = h1b_x * g7;
-  const detail::Lanes<4, Real> v1L_x = S1b_xz * g7;
-  const detail::Lanes<4, Real> v1L_y = S1b_yz * g7;
+  const Real t535 = Real(0.05) * state.z[5];
+  const detail::Lanes<2, Real> v1o_x = vrel0_x + detail::Lanes<2, Real>{t535, -t535};
+  const Real t539 = Real(0.05) * state.z[3];
+  const detail::Lanes<2, Real> v1o_z = detail::Lanes<2, Real>{vrel0_z, -vrel0_z} - t539;
+  const detail::Lanes<4, Real> v1P_x = h1b_y * g8;
+  const detail::Lanes<4, Real> v1P_y = h1b_x * g8;
+  const detail::Lanes<4, Real> v1L_x = S1b_xz * g8;
+  const detail::Lanes<4, Real> v1L_y = S1b_yz * g8;
   const detail::Lanes<4, Real> v1L_z = S1b_zz * detail::Lanes<4, Real>{state.z[6], state.z[9], state.z[12],
       -state.z[15]};
-  const detail::Lanes<4, Real> t566 = g7 * v1L_z;
   const detail::Lanes<4, Real> v2o_y = detail::Lanes<4, Real>{Real(0.19), Real(0.19), Real(-0.19),
-      Real(-0.19)} * w2pp_x + (c1s * detail::Lanes<4, Real>{v1o_z[0], v1o_z[1], v1o_z[0], v1o_z[1]} + s1s *
+      Real(-0.19)} * w2pp_x + (c1s_2 * detail::Lanes<4, Real>{v1o_z[0], v1o_z[1], v1o_z[0], v1o_z[1]} - s1s *
       vrel0_y);
-  const detail::Lanes<4, Real> v2P_y = h2_x * g8;
-  const detail::Lanes<4, Real> v2L_x = S2_xz * g8;
-  const detail::Lanes<4, Real> v2L_y = S2_yz * g8;
-  const detail::Lanes<4, Real> v2L_z = J2 * g8;
-  const detail::Lanes<4, Real> t606 = g8 * v2L_z;
-  const detail::Lanes<4, Real> t610 = w2pp_x * v2L_z;
-  const detail::Lanes<4, Real> t620 = v2o_y * (h2_y * detail::Lanes<4, Real>{state.z[7], state.z[10],
-      -state.z[13], -state.z[16]});
+  const detail::Lanes<4, Real> v2P_y = h2_x * g9;
+  const detail::Lanes<4, Real> v2L_x = S2_xz * g9;
+  const detail::Lanes<4, Real> v2L_y = S2_yz * g9;
+  const Real t600 = -state.z[10];
+  const Real t601 = -state.z[16];
+  const detail::Lanes<4, Real> g10 = {state.z[7], t600, state.z[13], t601};
+  const detail::Lanes<4, Real> v2L_z = J2 * g10;
   const detail::Lanes<4, Real> v3o_x = v2o_y - r3_y * w2_z;
-  const detail::Lanes<4, Real> v3o_y = detail::Lanes<4, Real>{v1o_x[0], v1o_x[1], v1o_x[0], v1o_x[1]} - r3_x *
+  const detail::Lanes<4, Real> v3o_y = detail::Lanes<4, Real>{v1o_x[0], v1o_x[1], v1o_x[0], v1o_x[1]} + r3_x *
       w2_z;
-  const detail::Lanes<4, Real> g9 = {state.z[8], state.z[11], state.z[14], state.z[17]};
-  const detail::Lanes<4, Real> v3L_x = S3b_xz * g9;
-  const detail::Lanes<4, Real> v3L_y = S3b_yz * g9;
-  const detail::Lanes<4, Real> v3L_z = g9 * detail::Lanes<4, Real>{Real(0.0018349999999999998),
-      Real(0.0018349999999999998), Real(0.0023000000000000004), Real(0.0023000000000000004)};
-  const detail::Lanes<4, Real> t658 = g9 * v3L_z;
-  const detail::Lanes<4, Real> t662 = w2_z * v3L_z;
-  const detail::Lanes<4, Real> t672 = v3o_x * (h3b_y * detail::Lanes<4, Real>{state.z[8], state.z[11],
-      -state.z[14], -state.z[17]});
-  const detail::Lanes<4, Real> t680 = v3o_y * (h3b_x * g9);
-  const detail::Lanes<4, Real> t720 = w1_z * (v2L_y + v3L_y);
-  const detail::Lanes<4, Real> t728 = w2pp_y * (v2L_x + v3L_x);
-  const detail::Lanes<2, Real> t734 = v1o_x * (detail::Lanes<2, Real>{v2P_y[0], v2P_y[1]} + detail::Lanes<2,
-      Real>{v2P_y[2], v2P_y[3]});
-  const detail::Lanes<2, Real> t738 = v1o_z * (detail::Lanes<2, Real>{v1P_y[0], v1P_y[1]} + detail::Lanes<2,
+  const detail::Lanes<4, Real> g11 = {state.z[8], state.z[11], state.z[14], state.z[17]};
+  const detail::Lanes<4, Real> v3L_x = S3b_xz * g11;
+  const detail::Lanes<4, Real> v3L_y = S3b_yz * g11;
+  const detail::Lanes<4, Real> v3L_z = g11 * detail::Lanes<4, Real>{Real(0.0018349999999999998),
+      Real(-0.0018349999999999998), Real(0.0023000000000000004), Real(-0.0023000000000000004)};
+  const Real t658 = -state.z[11];
+  const Real t667 = -state.z[17];
+  const detail::Lanes<4, Real> t688 = g8 * v1L_z + (detail::Lanes<4, Real>{state.z[7], t600, state.z[13],
+      state.z[16]} * v2L_z + detail::Lanes<4, Real>{state.z[8], t658, state.z[14], state.z[17]} * v3L_z);
+  const detail::Lanes<4, Real> g12 = {state.z[8], t658, state.z[14], t667};
+  const detail::Lanes<4, Real> t760 = w1_z * (v2L_y + v3L_y) + w2pp_y * (v2L_x + v3L_x) - (v2o_y * (h2_y *
+      g10) - (w2pp_x * v2L_z + w2_z * v3L_z) + (v3o_x * (h3b_y * g12) + v3o_y * (h3b_x * g12)));
+  const detail::Lanes<2, Real> t764 = v1o_x * (detail::Lanes<2, Real>{v2P_y[0], v2P_y[1]} + detail::Lanes<2,
+      Real>{v2P_y[2], v2P_y[3]}) + v1o_z * (detail::Lanes<2, Real>{v1P_y[0], v1P_y[1]} + detail::Lanes<2,
       Real>{v1P_y[2], v1P_y[3]});
-  const Real T12 = state.z[3] * (v1L_z[3] - (v1L_z[2] + (v1L_z[0] + v1L_z[1]))) + ((state.z[3] * (S1c_xz *
-      state.z[5] - (Jx0 * state.z[3] + S1c_xy * state.z[4])) + (state.z[5] * (S0b_zz * state.z[5] + (S1c_xz *
-      state.z[3] + S1c_yz * state.z[4])) + (state.z[4] * (S1c_yz * state.z[5] - (S1c_xy * state.z[3] - Jy0 *
-      state.z[4])) - (t566[0] + (t606[0] + (t658[0] + (t566[1] + (t606[1] + (t658[1] + (t566[2] + (t606[2] +
-      (t658[2] - (t566[3] - (t606[3] + t658[3])))))))))))))) * Real(0.5) + (state.z[4] * (v1L_x[3] - (v1L_x[2]
-      - (v1L_x[0] + v1L_x[1]))) - (state.z[5] * (v1L_y[3] + (v1L_y[2] - (v1L_y[0] + v1L_y[1]))) + (vrel0_y *
-      (v1P_x[3] - (v1P_x[2] + (v1P_x[0] - v1P_x[1]))) + (t720[0] + (t728[0] - (t720[1] + (t728[1] - (t720[2] +
-      (t728[2] - (t720[3] + (t728[3] - (t734[0] - (t738[0] - (t734[1] + (t738[1] + (t680[3] + (t672[3] +
-      (t662[3] + (t620[3] + (t610[3] + (t680[2] + (t672[2] + (t662[2] + (t620[2] + (t610[2] + (t680[1] -
-      (t672[1] - (t662[1] - (t620[1] - (t610[1] + (t680[0] - (t672[0] - (t662[0] - (t620[0] - (t610[0] +
-      (state.z[2] * (Tmv_z - (q0r2_z * Tph_z - (q0r2_x * Tph_x - q0r2_y * Tph_y))) + (state.z[0] * (Tmv_x +
-      (q0r0_z * Tph_z - (q0r0_x * Tph_x + q0r0_y * Tph_y))) + state.z[1] * (Tmv_y + (q0r1_z * Tph_z + (q0r1_x
-      * Tph_x + q0r1_y * Tph_y)))))))))))))))))))))))))))))))))))))))));
-  return -T12;
+  const Real T12 = (state.z[5] * (S0b_zz * state.z[5] - (S1c_xz * state.z[3] + S1c_yz * state.z[4])) +
+      (t688[0] + t688[1] + (t688[2] - t688[3])) + (state.z[4] * (Jy0 * state.z[4] + (S1c_xy * state.z[3] -
+      S1c_yz * state.z[5])) + state.z[3] * (Jx0 * state.z[3] + (S1c_xy * state.z[4] - S1c_xz * state.z[5]))))
+      * Real(0.5) - (state.z[2] * (q0r2_x * Tph_x - Tmv_z - (q0r2_y * Tph_y + q0r2_z * Tph_z)) + (state.z[4] *
+      (v1L_x[0] + v1L_x[1] - (v1L_x[2] - v1L_x[3])) - (t760[2] - t760[3] + (vrel0_y * (v1P_x[0] - v1P_x[1] +
+      (v1P_x[2] - v1P_x[3])) - t764[0]))) + (state.z[5] * (v1L_y[0] + v1L_y[1] + (v1L_y[2] + v1L_y[3])) -
+      (state.z[3] * (v1L_z[0] + v1L_z[1] + (v1L_z[2] - v1L_z[3])) - (t764[1] - (t760[0] - t760[1]))) -
+      (state.z[0] * (q0r0_x * Tph_x + Tmv_x + (q0r0_y * Tph_y - q0r0_z * Tph_z)) - state.z[1] * (q0r1_x *
+      Tph_x - Tmv_y + (q0r1_y * Tph_y + q0r1_z * Tph_z)))));
+  return T12;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -3004,15 +2927,15 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
   const Real h3b_x = c3 * Real(0.0135);
   const Real h2b_x = c2 * Real(0.0441);
   const Real h2_x = h3b_x - h2b_x;
-  const Real h1c_x = Real(0.0441) * (s2 + s5) + (Real(0.0135) * (s5 * t41 + (c5 * t40 + (c2 * t26 + s2 *
-      t27))) + (Real(0.016) * (s11 * t69 + (c11 * t68 + (c8 * t54 + s8 * t55))) + Real(0.0462) * (s8 + s11)) +
-      Real(0.0038000000000000035));
-  const Real h1c_y = s7 * h8_x + (s10 * h11_x + (s4 * h5_x + (s1 * h2_x - ((c7 - c10) * Real(0.0785) + (c1 -
-      c4) * Real(0.07788)))));
-  const Real h1c_z = c7 * h8_x + (c10 * h11_x + (c4 * h5_x + (c1 * h2_x + (Real(0.0785) * (s7 - s10) +
-      Real(0.07788) * (s1 - s4)))));
-  const Real hg0_z = q0r2_x * h1c_x - (state.y[2] * model.front_abduction1_m - (q0r2_y * h1c_y + q0r2_z *
-      h1c_z));
+  const Real h1c_x = Real(0.0441) * (s2 + s5) + (Real(0.0462) * (s8 + s11) + Real(0.0038000000000000035)) +
+      (Real(0.016) * (c8 * t54 + s8 * t55 + (c11 * t68 + s11 * t69)) + Real(0.0135) * (c2 * t26 + s2 * t27 +
+      (c5 * t40 + s5 * t41)));
+  const Real h1c_y = s7 * h8_x + s4 * h5_x + (s1 * h2_x + (s10 * h11_x - ((c7 - c10) * Real(0.0785) + (c1 -
+      c4) * Real(0.07788))));
+  const Real h1c_z = c7 * h8_x + c4 * h5_x + (c1 * h2_x + (c10 * h11_x + (Real(0.0785) * (s7 - s10) +
+      Real(0.07788) * (s1 - s4))));
+  const Real hg0_z = q0r2_z * h1c_z + (q0r2_y * h1c_y - (state.y[2] * model.front_abduction1_m - q0r2_x *
+      h1c_x));
   const Real stretch2 = state.y[8] + Real(0.8);
   const Real stretch3 = state.y[9] - Real(1.6);
   const Real stretch5 = state.y[11] + Real(0.8);
@@ -3021,10 +2944,10 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
   const Real stretch9 = state.y[15] - Real(1.6);
   const Real stretch11 = state.y[17] + Real(0.8);
   const Real stretch12 = state.y[18] - Real(1.6);
-  const Real V = hg0_z * Real(9.81) - (state.y[10] * state.y[10] + (state.y[7] * state.y[7] + (state.y[13] *
-      state.y[13] + (state.y[16] * state.y[16] + (stretch2 * stretch2 + (stretch3 * stretch3 + (stretch5 *
-      stretch5 + (stretch6 * stretch6 + (stretch8 * stretch8 + (stretch9 * stretch9 + (stretch11 * stretch11 +
-      stretch12 * stretch12))))))))))) * model.c7;
+  const Real V = hg0_z * Real(9.81) - (stretch8 * stretch8 + stretch9 * stretch9 + (stretch11 * stretch11 +
+      stretch12 * stretch12) + (state.y[7] * state.y[7] + state.y[10] * state.y[10] + (state.y[13] *
+      state.y[13] + state.y[16] * state.y[16]) + (stretch2 * stretch2 + stretch3 * stretch3 + (stretch5 *
+      stretch5 + stretch6 * stretch6)))) * model.c7;
   return -V;
 }
 

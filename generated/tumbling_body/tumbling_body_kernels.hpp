@@ -84,17 +84,17 @@ void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[7]
   const Real half_0_0 = state.z[3] * Real(0.5);
   const Real half_0_1 = Real(0.5) * state.z[4];
   const Real half_0_2 = Real(0.5) * state.z[5];
-  const Real qdot_0_0 = half_0_0 * state.y[4] + half_0_1 * state.y[5] + half_0_2 * state.y[6];
-  const Real qdot_0_1 = half_0_0 * state.y[3] + half_0_2 * state.y[5] - half_0_1 * state.y[6];
-  const Real qdot_0_2 = half_0_1 * state.y[3] - half_0_2 * state.y[4] + half_0_0 * state.y[6];
-  const Real qdot_0_3 = half_0_2 * state.y[3] + half_0_1 * state.y[4] - half_0_0 * state.y[5];
+  const Real qdot_0_0 = half_0_2 * state.y[6] + (half_0_0 * state.y[4] + half_0_1 * state.y[5]);
+  const Real qdot_0_1 = half_0_1 * state.y[6] - (half_0_0 * state.y[3] + half_0_2 * state.y[5]);
+  const Real qdot_0_2 = half_0_0 * state.y[6] + (half_0_1 * state.y[3] - half_0_2 * state.y[4]);
+  const Real qdot_0_3 = half_0_0 * state.y[5] - (half_0_2 * state.y[3] + half_0_1 * state.y[4]);
   ydot[0] = state.z[0];
   ydot[1] = state.z[1];
   ydot[2] = state.z[2];
   ydot[3] = -qdot_0_0;
-  ydot[4] = qdot_0_1;
+  ydot[4] = -qdot_0_1;
   ydot[5] = qdot_0_2;
-  ydot[6] = qdot_0_3;
+  ydot[6] = -qdot_0_3;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -125,9 +125,8 @@ void mass_matrix(const Model<Real>&, const State<Real>&, Real (&M)[6][6]) noexce
 template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept {
   const Real kww00 = state.z[4] * state.z[5];
-  const Real kww01 = state.z[5] * state.z[3];
   const Real kww02 = state.z[4] * state.z[3];
-  const Real kdn0_y = kww01 * Real(2.0);
+  const Real kdn0_y = Real(2.0) * (state.z[5] * state.z[3]);
   k[0] = Real(0.0);
   k[1] = Real(0.0);
   k[2] = Real(0.0);
@@ -151,8 +150,7 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
     noexcept {
   const Real bww00 = state.z[4] * state.z[5];
   const Real bww01 = state.z[5] * state.z[3];
-  const Real bww02 = state.z[4] * state.z[3];
-  const Real acc0u = bww02 * Real(0.3333333333333333);
+  const Real acc0u = Real(0.3333333333333333) * (state.z[4] * state.z[3]);
   zdot[0] = Real(0.0);
   zdot[1] = Real(0.0);
   zdot[2] = Real(0.0);
@@ -183,8 +181,9 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
 
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
-  const Real Tfree = state.z[5] * state.z[5] * Real(1.5) + state.z[3] * state.z[3] * Real(0.5) + state.z[0] *
-      state.z[0] + state.z[1] * state.z[1] + state.z[2] * state.z[2] + state.z[4] * state.z[4];
+  const Real Tfree = Real(1.5) * (state.z[5] * state.z[5]) + Real(0.5) * (state.z[3] * state.z[3]) +
+      (state.z[0] * state.z[0] + state.z[1] * state.z[1] + (state.z[2] * state.z[2] + state.z[4] *
+      state.z[4]));
   return Tfree;
 }
 
@@ -196,8 +195,9 @@ Real potential_energy(const Model<Real>&, const State<Real>&) noexcept {
 template <class Real> JOURDAIN_FUNCTION
 void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, Outputs<Real>& result) noexcept
     {
-  const Real Tfree = state.z[5] * state.z[5] * Real(1.5) + state.z[3] * state.z[3] * Real(0.5) + state.z[0] *
-      state.z[0] + state.z[1] * state.z[1] + state.z[2] * state.z[2] + state.z[4] * state.z[4];
+  const Real Tfree = Real(1.5) * (state.z[5] * state.z[5]) + Real(0.5) * (state.z[3] * state.z[3]) +
+      (state.z[0] * state.z[0] + state.z[1] * state.z[1] + (state.z[2] * state.z[2] + state.z[4] *
+      state.z[4]));
   result.energy = Tfree;
 }
 

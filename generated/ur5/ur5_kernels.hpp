@@ -285,7 +285,6 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[6][6]) 
   const Real S4b_zz = S5c_xx - Real(0.126621);
   const Real S4b_t = s4 * t32;
   const Real S4b_xx = S5c_xx - s4 * S4b_t;
-  const Real S4b_xy = c4 * S4b_t;
   const Real S4b_xz = c4 * S5b_xy;
   const Real S4b_yz = s4 * S5b_xy;
   const Real S4c_xx = S5b_xx + Real(0.004608836229750008);
@@ -293,8 +292,8 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[6][6]) 
   const Real S4c_yy = S4b_xx - Real(0.10971);
   const Real S3b_zz = S4c_xx - S4c_yy;
   const Real S3b_d = S4c_xx + S4c_yy;
-  const Real S3b_t = c3 * S4b_xz * Real(2.0) - s3 * S3b_d;
-  const Real S3b_xz = c3 * S4c_xz - s3 * S4b_xy;
+  const Real S3b_t = c3 * (S4b_xz * Real(2.0)) - s3 * S3b_d;
+  const Real S3b_xz = c3 * S4c_xz - s3 * (c4 * S4b_t);
   const Real h3b_x = c3 * Real(0.017784735);
   const Real h3b_y = s3 * Real(0.017784735);
   const Real D3 = t16 * Real(0.00697606230375);
@@ -304,33 +303,33 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[6][6]) 
   const Real h2b_y = c2 * Real(1.598759275);
   const Real h2_x = h3b_x - h2b_x;
   const Real h2_y = h3b_y - h2b_y;
-  const Real J2 = D3 - E3 - Real(0.59565195167475);
+  const Real J2 = E3 - (D3 - Real(0.59565195167475));
   const Real S2_xz = S3b_xz + S2b_xz;
   const Real t86 = r2_x * h2_x;
   const Real D2 = t86 - r2_y * h2_y;
-  const Real E2 = J2 + D2;
+  const Real E2 = J2 - D2;
   const Real S1b_xz = s1 * Real(0.4084992088750001);
-  const Real J1 = D2 + E2 - Real(1.7701269384100002);
+  const Real J1 = E2 - (D2 - Real(1.7701269384100002));
   const Real S1_xz = S2_xz + S1b_xz;
-  const Real S0b_zz = J1 + (S4c_xx + (s3 * S3b_t + (s2 * s2 * Real(0.59155695167475) + (s1 * s1 *
-      Real(1.7550195384100002) + (S4b_zz - (S4b_xx + Real(2.0) * (s2 * h3b_x * Real(0.39225) + t86))))))) -
-      Real(0.28893741244275);
-  const Real p_3_2n_z = r2_y * h3b_y + (E3 - r2_x * h3b_x);
+  const Real S0b_zz = J1 - (s3 * S3b_t - (Real(2.0) * (h3b_x * (s2 * Real(0.39225)) + t86) - (S4b_zz + s2 *
+      (s2 * Real(0.59155695167475)) - (S4b_xx - (S4c_xx + (s1 * (s1 * Real(1.7550195384100002)) -
+      Real(0.28893741244275)))))));
+  const Real p_3_2n_z = E3 - (r2_x * h3b_x - r2_y * h3b_y);
   const Real p_4_4N_x = c3 * S4b_zz + s3 * S4b_xz;
   const Real p_5_5N_y = c4 * Real(0.0171364731454);
-  const Real p_5_4N_x = Real(0.0171364731454) * (s3 * s4);
-  M[0][0] = -S0b_zz;
+  const Real p_5_4N_x = s3 * (s4 * Real(0.0171364731454));
+  M[0][0] = S0b_zz;
   M[0][1] = M[1][0] = S1_xz;
   M[0][2] = M[2][0] = S2_xz;
   M[0][3] = M[3][0] = S3b_xz;
   M[0][4] = M[4][0] = -p_4_4N_x;
   M[0][5] = M[5][0] = p_5_4N_x;
-  M[1][1] = -J1;
-  M[1][2] = M[2][1] = -E2;
+  M[1][1] = J1;
+  M[1][2] = M[2][1] = E2;
   M[1][3] = M[3][1] = p_3_2n_z;
   M[1][4] = M[4][1] = S4b_yz;
   M[1][5] = M[5][1] = p_5_5N_y;
-  M[2][2] = -J2;
+  M[2][2] = J2;
   M[2][3] = M[3][2] = E3;
   M[2][4] = M[4][2] = S4b_yz;
   M[2][5] = M[5][2] = p_5_5N_y;
@@ -370,23 +369,23 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
   const Real S4b_yz = s4 * S5b_xy;
   const Real S4b_yy = S4b_zz - S4b_xx;
   const Real S4c_xz = S4b_yz - Real(0.0019412038252500001);
-  const Real S3b_d = S5b_xx + S4b_xx - Real(0.10510116377025);
-  const Real S3b_t = c3 * S4b_xz * Real(2.0) - s3 * S3b_d;
+  const Real S3b_d = S4b_xx + (S5b_xx - Real(0.10510116377025));
+  const Real S3b_t = c3 * (S4b_xz * Real(2.0)) - s3 * S3b_d;
   const Real S3b_xy = S4b_xz - c3 * S3b_t;
   const Real S3b_yz = c3 * S4b_xy + s3 * S4c_xz;
   const Real h3b_x = c3 * Real(0.017784735);
   const Real h3b_y = s3 * Real(0.017784735);
-  const Real S2b_xy = s2 * c2 * Real(0.59155695167475);
+  const Real S2b_xy = c2 * (s2 * Real(0.59155695167475));
   const Real S2b_yz = c2 * Real(0.07714261911624999);
   const Real h2b_x = s2 * Real(1.598759275);
   const Real h2b_y = c2 * Real(1.598759275);
   const Real h2_x = h3b_x - h2b_x;
   const Real h2_y = h3b_y - h2b_y;
-  const Real S2_xy = S2b_xy - (r3_y * h3b_x - (S3b_xy - r3_x * h3b_y));
+  const Real S2_xy = S3b_xy - (r3_y * h3b_x + (r3_x * h3b_y - S2b_xy));
   const Real S2_yz = S3b_yz + S2b_yz;
-  const Real S1b_xy = c1 * s1 * Real(1.7550195384100002);
+  const Real S1b_xy = s1 * (c1 * Real(1.7550195384100002));
   const Real S1b_yz = c1 * Real(0.4084992088750001);
-  const Real S1_xy = S1b_xy - (r2_y * h2_x + (S2_xy - r2_x * h2_y));
+  const Real S1_xy = S2_xy + (r2_y * h2_x - (r2_x * h2_y + S1b_xy));
   const Real S1_yz = S2_yz - S1b_yz;
   const Real w2_z = state.z[1] + state.z[2];
   const Real w3_z = w2_z + state.z[3];
@@ -405,12 +404,10 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
   const Real t120 = S2_xy * state.z[0];
   const Real kKy2 = t120 - S2_yz * state.z[1];
   const Real z2_2 = Real(2.0) * state.z[2];
-  const Real zz_2 = state.z[2] * state.z[2];
   const Real zw_2 = state.z[2] * (state.z[1] + w2_z);
-  const Real kax2 = h2_x * state.z[0];
   const Real kdf2_x = h2_x * zw_2;
   const Real kdf2_y = h2_y * zw_2;
-  const Real kdf2_z = z2_2 * kax2;
+  const Real kdf2_z = h2_x * (state.z[0] * z2_2);
   const Real kW2w22 = w2_z * w2_z;
   const Real kW2U1_y = kW1w00 + kW2w22;
   const Real ka3o_x = ka2o_x + r3_x * kW2w22;
@@ -418,16 +415,13 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
   const Real t141 = S3b_xy * state.z[0];
   const Real kKy3 = t141 - S3b_yz * w2_z;
   const Real z2_3 = Real(2.0) * state.z[3];
-  const Real zz_3 = state.z[3] * state.z[3];
   const Real zw_3 = state.z[3] * (w2_z + w3_z);
-  const Real kax3 = h3b_x * state.z[0];
   const Real kdf3_x = h3b_x * zw_3;
   const Real kdf3_y = h3b_y * zw_3;
-  const Real kdf3_z = z2_3 * kax3;
+  const Real kdf3_z = h3b_x * (state.z[0] * z2_3);
   const Real kal3o_y = w3_z * state.z[0];
-  const Real kal4p_x = s3 * kal3o_y;
   const Real kal4p_y = c3 * kal3o_y;
-  const Real kKx4 = S4b_xz * w4pp_x - (S4b_xx * w4pp_y - S4b_xy * w3_z);
+  const Real kKx4 = S4b_xx * w4pp_y - (S4b_xy * w3_z + S4b_xz * w4pp_x);
   const Real kKy4 = S4b_yy * w3_z - (S4b_xy * w4pp_y - S4b_yz * w4pp_x);
   const Real z2_4 = Real(2.0) * state.z[4];
   const Real zz_4 = state.z[4] * state.z[4];
@@ -442,22 +436,23 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
   const Real kn4b_x = c4 * kdn5_y;
   const Real kn4b_y = s4 * kdn5_y;
   const Real kn4_x = kn4b_x + (S4b_yz * zz_4 + kKy4 * z2_4);
-  const Real kn4_y = kn4b_y - (S4b_xz * zz_4 + kKx4 * z2_4);
+  const Real kn4_y = kn4b_y - (S4b_xz * zz_4 - kKx4 * z2_4);
   const Real kf3c_x = kdf2_x + kdf3_x;
   const Real kf3c_y = kdf2_y + kdf3_y;
   const Real kf3c_z = kdf2_z + kdf3_z;
-  const Real kn3c_z = r3_y * kdf3_x + (kn4_y - r3_x * kdf3_y);
-  const Real kn2c_x = r2_y * kf3c_z - (Real(2.0) * (state.z[1] * kKy1) + (S1_yz * zz_1 + (r3_y * kdf3_z -
-      (kKy2 * z2_2 - (S2_yz * zz_2 - (s3 * kn4_x - (c3 * kdn5_x + (S3b_yz * zz_3 - kKy3 * z2_3))))))));
-  const Real kQ1_0 = r2_y * kf3c_x + (r2_x * kf3c_y + (kQp1 - kn3c_z));
+  const Real kn3c_z = kn4_y - (r3_x * kdf3_y - r3_y * kdf3_x);
+  const Real kn2c_x = kKy3 * z2_3 + (s3 * kn4_x - (c3 * kdn5_x + (S2_yz * (state.z[2] * state.z[2]) + (S3b_yz
+      * (state.z[3] * state.z[3]) + r3_y * kdf3_z) + (S1_yz * zz_1 - r2_y * kf3c_z)))) + (kKy1 * (Real(2.0) *
+      state.z[1]) + kKy2 * z2_2);
+  const Real kQ1_0 = kQp1 + (kn3c_z - (r2_x * kf3c_y + r2_y * kf3c_x));
   const Real kQ2_0 = state.z[0] * t120 + (kn3c_z + (h2_x * ka2o_y + h2_y * ka2o_x));
-  const Real kQ3_0 = kn4_y + (h3b_y * ka3o_x + (state.z[0] * t141 + h3b_x * ka3o_y));
-  const Real kQ4_0 = kdn5_x + (w4pp_y * kKy4 + (w3_z * kKx4 - (S4b_zz * kal4p_x - S4b_xz * kal4p_y)));
+  const Real kQ3_0 = state.z[0] * t141 + (kn4_y + (h3b_x * ka3o_y + h3b_y * ka3o_x));
+  const Real kQ4_0 = w3_z * kKx4 + (S4b_zz * (s3 * kal3o_y) - S4b_xz * kal4p_y) - (w4pp_y * kKy4 + kdn5_x);
   k[0] = -kn2c_x;
-  k[1] = -kQ1_0;
+  k[1] = kQ1_0;
   k[2] = kQ2_0;
   k[3] = kQ3_0;
-  k[4] = kQ4_0;
+  k[4] = -kQ4_0;
   k[5] = kQp5;
 }
 
@@ -517,7 +512,7 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real S4c_xz = S4b_yz - Real(0.0019412038252500001);
   const Real S4c_yy = Real(0.10971) - S4b_xx;
   const Real S3b_d = S4c_xx - S4c_yy;
-  const Real S3b_t = c3 * S4b_xz * Real(2.0) - s3 * S3b_d;
+  const Real S3b_t = c3 * (S4b_xz * Real(2.0)) - s3 * S3b_d;
   const Real S3b_xy = S4b_xz - c3 * S3b_t;
   const Real S3b_yz = c3 * S4b_xy + s3 * S4c_xz;
   const Real h3b_x = c3 * Real(0.017784735);
@@ -529,14 +524,14 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real h2b_y = c2 * Real(1.598759275);
   const Real h2_x = h3b_x - h2b_x;
   const Real h2_y = h3b_y - h2b_y;
-  const Real S2_xy = r3_x * h3b_y - (S3b_xy - (r3_y * h3b_x - S2b_xy));
+  const Real S2_xy = S3b_xy - (r3_y * h3b_x + (r3_x * h3b_y - S2b_xy));
   const Real S2_yz = S3b_yz + S2b_yz;
   const Real S1b_t = s1 * Real(1.7550195384100002);
   const Real S1b_xy = c1 * S1b_t;
   const Real S1b_yz = c1 * Real(0.4084992088750001);
   const Real h1b_y = c1 * Real(4.4329225);
   const Real h1_y = h2_y + h1b_y;
-  const Real S1_xy = r2_x * h2_y + (S2_xy - (r2_y * h2_x - S1b_xy));
+  const Real S1_xy = S2_xy + (r2_y * h2_x - (r2_x * h2_y + S1b_xy));
   const Real S1_yz = S2_yz - S1b_yz;
   const Real w2_z = state.z[1] + state.z[2];
   const Real w3_z = w2_z + state.z[3];
@@ -552,14 +547,12 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real ba2o_x = Real(9.81) + r2_x * zz_1;
   const Real ba2o_y = r2_y * bW1U1_y;
   const Real t127 = S2_xy * state.z[0];
-  const Real bKy2 = t127 + S2_yz * state.z[1];
+  const Real bKy2 = t127 - S2_yz * state.z[1];
   const Real z2_2 = Real(2.0) * state.z[2];
-  const Real zz_2 = state.z[2] * state.z[2];
   const Real zw_2 = state.z[2] * (state.z[1] + w2_z);
-  const Real bax2 = h2_x * state.z[0];
   const Real bdf2_x = h2_x * zw_2;
   const Real bdf2_y = h2_y * zw_2;
-  const Real bdf2_z = z2_2 * bax2;
+  const Real bdf2_z = h2_x * (state.z[0] * z2_2);
   const Real bW2w22 = w2_z * w2_z;
   const Real bW2U1_y = bW1w00 + bW2w22;
   const Real ba3o_x = ba2o_x + r3_x * bW2w22;
@@ -567,17 +560,14 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real t148 = S3b_xy * state.z[0];
   const Real bKy3 = t148 - S3b_yz * w2_z;
   const Real z2_3 = Real(2.0) * state.z[3];
-  const Real zz_3 = state.z[3] * state.z[3];
   const Real zw_3 = state.z[3] * (w2_z + w3_z);
-  const Real bax3 = h3b_x * state.z[0];
   const Real bdf3_x = h3b_x * zw_3;
   const Real bdf3_y = h3b_y * zw_3;
-  const Real bdf3_z = z2_3 * bax3;
+  const Real bdf3_z = h3b_x * (state.z[0] * z2_3);
   const Real bal3o_y = w3_z * state.z[0];
-  const Real bal4p_x = s3 * bal3o_y;
   const Real bal4p_y = c3 * bal3o_y;
-  const Real bKx4 = S4b_xy * w3_z - (S4b_xx * w4pp_y - S4b_xz * w4pp_x);
-  const Real bKy4 = S4b_yz * w4pp_x - (S4b_xy * w4pp_y - S4b_yy * w3_z);
+  const Real bKx4 = S4b_xx * w4pp_y - (S4b_xy * w3_z + S4b_xz * w4pp_x);
+  const Real bKy4 = S4b_yy * w3_z - (S4b_xy * w4pp_y - S4b_yz * w4pp_x);
   const Real z2_4 = Real(2.0) * state.z[4];
   const Real zz_4 = state.z[4] * state.z[4];
   const Real bal4o_x = bal4p_y - w3_z * state.z[4];
@@ -589,84 +579,84 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real bdn5_y = bKx5 * z2_5;
   const Real bn4b_x = c4 * bdn5_y;
   const Real bn4b_y = s4 * bdn5_y;
-  const Real bn4_x = bKy4 * z2_4 + (S4b_yz * zz_4 + bn4b_x);
-  const Real bn4_y = bKx4 * z2_4 + (S4b_xz * zz_4 - bn4b_y);
+  const Real bn4_x = bn4b_x + (S4b_yz * zz_4 + bKy4 * z2_4);
+  const Real bn4_y = bn4b_y - (S4b_xz * zz_4 - bKx4 * z2_4);
   const Real bf3c_x = bdf2_x + bdf3_x;
   const Real bf3c_y = bdf2_y + bdf3_y;
   const Real bf3c_z = bdf2_z + bdf3_z;
-  const Real bn3c_z = r3_x * bdf3_y + (bn4_y - r3_y * bdf3_x);
-  const Real b_4 = S4b_xz * bal4p_y - (S4b_zz * bal4p_x - (w3_z * bKx4 + (w4pp_y * bKy4 + (bdn5_x +
-      input.u[4]))));
-  const Real b_5 = w4_z * bKy5 + (Real(0.0171364731454) * bal5p_y - (w5pp_x * bKx5 + input.u[5]));
+  const Real bn3c_z = bn4_y - (r3_x * bdf3_y - r3_y * bdf3_x);
+  const Real b_4 = w3_z * bKx4 + (S4b_zz * (s3 * bal3o_y) - (S4b_xz * bal4p_y + input.u[4])) - (w4pp_y * bKy4
+      + bdn5_x);
+  const Real b_5 = Real(0.0171364731454) * bal5p_y - input.u[5] + (w4_z * bKy5 - w5pp_x * bKx5);
   const Real S3b_zz = S4c_xx + S4c_yy;
   const Real D3 = t16 * Real(0.00697606230375);
-  const Real E3 = S3b_zz - D3;
   const Real S2b_xz = s2 * Real(0.07714261911624999);
-  const Real J2 = D3 - E3 - Real(0.59565195167475);
+  const Real J2 = S3b_zz - (D3 + (D3 - Real(0.59565195167475)));
   const Real t250 = r2_x * h2_x;
   const Real D2 = t250 - r2_y * h2_y;
   const Real S1b_xz = s1 * Real(0.4084992088750001);
-  const Real J1 = D2 + (J2 + D2) - Real(1.7701269384100002);
+  const Real J1 = D2 - Real(1.7701269384100002) - (J2 - D2);
   const Real p4_4N_x = c3 * S4b_zz + s3 * S4b_xz;
   const Real p5_5N_y = c4 * Real(0.0171364731454);
-  const Real p5_4N_x = Real(0.0171364731454) * (s3 * s4);
+  const Real p5_4N_x = s3 * (s4 * Real(0.0171364731454));
   const Real L_5_3 = p5_5N_y * Real(58.355064750790525);
   const Real t269 = p5_5N_y * L_5_3;
   const Real L_5_0 = p5_4N_x * Real(58.355064750790525);
   const Real invD_4 = Real(1.0) / S4b_zz;
   const Real L_4_3 = S4b_yz * invD_4;
   const Real t278 = S4b_yz * L_4_3;
-  const Real H4_3_3 = t269 - (S3b_zz + t278);
-  const Real H4_3_2 = D3 + H4_3_3;
-  const Real H4_3_1 = r2_x * h3b_x - (r2_y * h3b_y - H4_3_2);
-  const Real H4_3_0 = p5_4N_x * L_5_3 + (s3 * S4b_xy - (c3 * S4c_xz - p4_4N_x * L_4_3));
+  const Real H4_3_3 = t278 + (S3b_zz - t269);
+  const Real H4_3_2 = D3 - H4_3_3;
+  const Real H4_3_1 = H4_3_2 + (r2_x * h3b_x - r2_y * h3b_y);
+  const Real H4_3_0 = p4_4N_x * L_4_3 + (p5_4N_x * L_5_3 - (c3 * S4c_xz - s3 * S4b_xy));
   const Real L_4_0 = p4_4N_x * invD_4;
-  const Real t293 = b_5 * L_5_3 + b_4 * L_4_3;
-  const Real u4_3 = state.z[0] * t148 + (h3b_x * ba3o_y + (h3b_y * ba3o_x - (bn4_y - (input.u[3] + t293))));
+  const Real t292 = b_5 * L_5_3 - b_4 * L_4_3;
+  const Real u4_3 = t292 + (state.z[0] * t148 + (bn4_y + (h3b_y * ba3o_x + (h3b_x * ba3o_y + input.u[3]))));
   const Real invD_3 = Real(1.0) / H4_3_3;
   const Real L_3_2 = H4_3_2 * invD_3;
-  const Real t303 = J2 + (t269 - t278);
+  const Real t303 = t278 + (J2 - t269);
   const Real H3_2_2 = H4_3_2 * L_3_2 - t303;
-  const Real H3_2_1 = t303 + (D2 - H4_3_1 * L_3_2);
+  const Real H3_2_1 = H4_3_1 * L_3_2 + (D2 - t303);
   const Real t309 = S2b_xz - H4_3_0;
-  const Real H3_2_0 = H4_3_0 * L_3_2 + t309;
+  const Real H3_2_0 = H4_3_0 * L_3_2 - t309;
   const Real L_3_1 = H4_3_1 * invD_3;
   const Real L_3_0 = H4_3_0 * invD_3;
-  const Real u3_2 = state.z[0] * t127 - (h2_x * ba2o_y + (h2_y * ba2o_x - (bn3c_z - (input.u[2] + (t293 - u4_3
-      * L_3_2)))));
+  const Real u3_2 = u4_3 * L_3_2 + (state.z[0] * t127 + (t292 + (bn3c_z + (h2_y * ba2o_x + (h2_x * ba2o_y +
+      input.u[2])))));
   const Real invD_2 = Real(1.0) / H3_2_2;
   const Real L_2_1 = H3_2_1 * invD_2;
-  const Real H2_1_1 = t269 + (J1 - (t278 + (H4_3_1 * L_3_1 - H3_2_1 * L_2_1)));
-  const Real H2_1_0 = t309 + (S1b_xz + (H4_3_0 * L_3_1 + H3_2_0 * L_2_1));
+  const Real H2_1_1 = H3_2_1 * L_2_1 - (H4_3_1 * L_3_1 - (t278 - (J1 + t269)));
+  const Real H2_1_0 = H3_2_0 * L_2_1 - (H4_3_0 * L_3_1 - (S1b_xz + t309));
   const Real L_2_0 = H3_2_0 * invD_2;
-  const Real u2_1 = state.z[0] * bKy1 - (h1_y * Real(9.81) - (bn3c_z + (r2_x * bf3c_y + (r2_y * bf3c_x -
-      (input.u[1] + (t293 - (u4_3 * L_3_1 + u3_2 * L_2_1)))))));
+  const Real u2_1 = u3_2 * L_2_1 - (u4_3 * L_3_1 + (state.z[0] * bKy1 + (t292 + (bn3c_z + (h1_y * Real(9.81) +
+      input.u[1] - (r2_x * bf3c_y + r2_y * bf3c_x))))));
   const Real invD_1 = Real(1.0) / H2_1_1;
   const Real L_1_0 = H2_1_0 * invD_1;
-  const Real H1_0_0 = Real(2.0) * (r3_x * h3b_x + t250) + (H2_1_0 * L_1_0 - (H3_2_0 * L_2_0 - (H4_3_0 * L_3_0
-      + (p4_4N_x * L_4_0 - (p5_4N_x * L_5_0 + (S4b_yy + (s1 * S1b_t + (s2 * S2b_t + (s3 * S3b_t + (S4c_xx +
-      J1)))))))))) + Real(0.28893741244275);
-  const Real u1_0 = bKy3 * z2_3 - (S3b_yz * zz_3 + (c3 * bdn5_x - (s3 * bn4_x - (S2_yz * zz_2 + (bKy2 * z2_2 +
-      (r3_y * bdf3_z + (S1_yz * zz_1 + (Real(2.0) * (state.z[1] * bKy1) - (r2_y * bf3c_z - (input.u[0] + (b_5
-      * L_5_0 - (b_4 * L_4_0 + (u4_3 * L_3_0 - (u3_2 * L_2_0 - u2_1 * L_1_0))))))))))))));
+  const Real H1_0_0 = H2_1_0 * L_1_0 - (H3_2_0 * L_2_0 - (H4_3_0 * L_3_0 + (s3 * S3b_t - (Real(2.0) * (r3_x *
+      h3b_x + t250) - (p5_4N_x * L_5_0 + (S4b_yy + (s2 * S2b_t + (S4c_xx + (s1 * S1b_t -
+      Real(0.28893741244275))))))) + (J1 - p4_4N_x * L_4_0))));
+  const Real u1_0 = u2_1 * L_1_0 - (u3_2 * L_2_0 - (u4_3 * L_3_0 - (bKy3 * z2_3 + (s3 * bn4_x - (c3 * bdn5_x +
+      (S1_yz * zz_1 + (S3b_yz * (state.z[3] * state.z[3]) + input.u[0]) - (r2_y * bf3c_z - (S2_yz *
+      (state.z[2] * state.z[2]) + r3_y * bdf3_z)))) - (b_5 * L_5_0 + b_4 * L_4_0)) + (bKy1 * (Real(2.0) *
+      state.z[1]) + bKy2 * z2_2))));
   const Real y_0 = u1_0 / H1_0_0;
   const Real y_1 = u2_1 * invD_1;
   const Real zdot_1 = y_1 - L_1_0 * y_0;
   const Real y_2 = u3_2 * invD_2;
   const Real zdot_2 = L_2_1 * zdot_1 - (y_2 - L_2_0 * y_0);
   const Real y_3 = u4_3 * invD_3;
-  const Real zdot_3 = L_3_2 * zdot_2 + (y_3 + (L_3_1 * zdot_1 - L_3_0 * y_0));
+  const Real zdot_3 = L_3_2 * zdot_2 - (L_3_1 * zdot_1 - (y_3 - L_3_0 * y_0));
   const Real y_4 = b_4 * invD_4;
-  const Real t402 = zdot_2 + (zdot_1 - zdot_3);
-  const Real zdot_4 = L_4_0 * y_0 - (y_4 - L_4_3 * t402);
+  const Real t402 = zdot_3 - (zdot_1 - zdot_2);
+  const Real zdot_4 = L_4_3 * t402 + (y_4 + L_4_0 * y_0);
   const Real y_5 = b_5 * Real(58.355064750790525);
-  const Real zdot_5 = L_5_0 * y_0 - (y_5 + L_5_3 * t402);
+  const Real zdot_5 = L_5_3 * t402 + (y_5 - L_5_0 * y_0);
   zdot[0] = -y_0;
-  zdot[1] = zdot_1;
+  zdot[1] = -zdot_1;
   zdot[2] = zdot_2;
-  zdot[3] = -zdot_3;
+  zdot[3] = zdot_3;
   zdot[4] = zdot_4;
-  zdot[5] = zdot_5;
+  zdot[5] = -zdot_5;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -706,7 +696,7 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real ala3U1_y = ala2w00 + ala3w22;
   const Real ala3o_x = r3_y * ala2A_z + (ala2o_x + r3_x * ala3w22);
   const Real ala3o_y = r3_y * ala3U1_y - (ala2o_y + r3_x * ala2A_z);
-  const Real ala3o_z = r3_x * ala2A_y * Real(2.0) - (ala2o_z - r3_y * zdot[0]);
+  const Real ala3o_z = r3_x * (ala2A_y * Real(2.0)) - (ala2o_z - r3_y * zdot[0]);
   const Real ala3A_y = w3_z * state.z[0];
   const Real ala3A_z = ala2A_z + zdot[3];
   const Real t91 = c3 * zdot[0];
@@ -723,32 +713,28 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real ala5A_y = ala5np_x + w4_z * state.z[5];
   const Real ala5A_z = ala5np_y + zdot[5];
   const Real aL0n_z = zdot[0] * Real(0.29853861244275);
-  const Real aL1w_x = c1 * state.z[0];
   const Real aL1w_y = s1 * state.z[0];
-  const Real t119 = s1 * zdot[0];
-  const Real t120 = c1 * ala1A_y;
-  const Real aL1al_y = t119 + t120;
-  const Real aL1w01 = aL1w_x * aL1w_y;
+  const Real t118 = s1 * zdot[0];
+  const Real t119 = c1 * ala1A_y;
+  const Real aL1w01 = aL1w_y * (c1 * state.z[0]);
   const Real aL1w11 = aL1w_y * aL1w_y;
   const Real aL1U0_y = zdot[1] + aL1w01;
   const Real aL1U1_x = zdot[1] - aL1w01;
-  const Real aL1U2_x = t120 + aL1al_y;
+  const Real aL1U2_x = t119 + (t118 + t119);
   const Real aL1n_x = ala2o_z * Real(4.1472311492000005) + (ala2w22 - aL1w11) * Real(0.4084992088750001);
   const Real aL1n_y = aL1U0_y * Real(0.4084992088750001) + aL1U2_x * Real(0.0075537);
   const Real aL2w_x = c2 * state.z[0];
-  const Real aL2w_y = s2 * state.z[0];
-  const Real t148 = s2 * ala2A_y;
-  const Real t149 = s2 * zdot[0];
-  const Real t150 = c2 * ala2A_y;
-  const Real aL2al_y = t149 - t150;
+  const Real t147 = s2 * ala2A_y;
+  const Real t148 = s2 * zdot[0];
+  const Real t149 = c2 * ala2A_y;
   const Real aL2a_x = c2 * ala2o_x + s2 * ala2o_y;
   const Real aL2w00 = aL2w_x * aL2w_x;
-  const Real aL2w01 = aL2w_x * aL2w_y;
+  const Real aL2w01 = aL2w_x * (s2 * state.z[0]);
   const Real aL2U0_y = ala2A_z - aL2w01;
   const Real aL2U1_x = ala2A_z + aL2w01;
   const Real aL2U1_y = ala3w22 + aL2w00;
-  const Real aL2U2_x = t150 - aL2al_y;
-  const Real aL2U2_y = t148 + (c2 * zdot[0] + t148);
+  const Real aL2U2_x = t149 - (t148 - t149);
+  const Real aL2U2_y = t147 + (c2 * zdot[0] + t147);
   const Real aL2f_x = aL2U0_y * Real(1.598759275);
   const Real aL2f_y = aL2U1_y * Real(1.598759275);
   const Real aL2f_z = aL2U2_y * Real(1.598759275);
@@ -767,9 +753,6 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real aL3f_x = aL3U0_x * Real(0.017784735);
   const Real aL3f_y = aL3U1_x * Real(0.017784735);
   const Real aL3f_z = aL3U2_x * Real(0.017784735);
-  const Real aL3n_x = aL3U2_y * Real(0.10971) + aL3U1_x * Real(0.0019412038252500001);
-  const Real aL3n_y = Real(0.0019412038252500001) * (ala2w00 - aL3U0_x) + (ala3o_z * Real(0.017784735) -
-      aL3U2_x * Real(0.004608836229750008));
   const Real aL3F_x = c3 * aL3f_x + s3 * aL3f_y;
   const Real aL3F_y = c3 * aL3f_y - s3 * aL3f_x;
   const Real aL4w01 = w5pp_x * w5pp_y;
@@ -788,32 +771,31 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real aL5w12 = w5_z * aL5w_y;
   const Real aL5U0_y = ala5A_z + aL5w01;
   const Real aL5U1_x = ala5A_z - aL5w01;
-  const Real aL5U2_x = aL5w02 + (c5 * ala5A_y + s5 * ala5A_x);
-  const Real aL5U2_y = aL5w12 - (c5 * ala5A_x - s5 * ala5A_y);
+  const Real aL5U2_x = c5 * ala5A_y + (s5 * ala5A_x + aL5w02);
+  const Real aL5U2_y = s5 * ala5A_y - (c5 * ala5A_x - aL5w12);
   const Real aL5n_x = aL5U2_y * Real(0.016911);
   const Real aL5n_y = aL5U2_x * Real(0.0002254731454000014);
   const Real aL5n_z = aL5U0_y * Real(0.016911) + aL5U1_x * Real(0.0002254731454000014);
-  const Real aL5N_y = c5 * aL5n_y + s5 * aL5n_x;
-  const Real t269 = aL4n_x + aL5N_y;
-  const Real t271 = aL4n_y + aL5n_z;
-  const Real an4_x = c4 * t269 + s4 * t271;
+  const Real t266 = s5 * aL5n_x + (aL4n_x + c5 * aL5n_y);
+  const Real t268 = aL4n_y + aL5n_z;
   const Real an4_z = s5 * aL5n_y - (c5 * aL5n_x - (aL4U0_y * Real(0.126621) + Real(0.10971) * aL4U1_x));
-  const Real an3_z = c4 * t271 - (s4 * t269 + (t91 * Real(0.0019412038252500001) - (aL3U0_y * Real(0.10971) +
-      (aL3a_y * Real(0.017784735) + aL3U1_x * Real(0.004608836229750008)))));
+  const Real an3_z = s4 * t266 - (c4 * t268 + (aL3U1_x * Real(0.004608836229750008) - t91 *
+      Real(0.0019412038252500001) + (aL3a_y * Real(0.017784735) + aL3U0_y * Real(0.10971))));
   const Real af3c_x = aL3F_x - (c2 * aL2f_x + s2 * aL2f_y);
   const Real af3c_y = aL3F_y + (c2 * aL2f_y - s2 * aL2f_x);
   const Real af3c_z = aL2f_z - aL3f_z;
-  const Real an3c_z = r3_y * aL3F_x + (r3_x * aL3F_y - (aL2a_x * Real(1.598759275) + (t149 *
-      Real(0.07714261911624999) + (aL2U0_y * Real(0.59360445167475) + (aL2U1_x * Real(0.0020475) + an3_z)))));
-  const Real an2c_z = r2_y * af3c_x - (r2_x * af3c_y - (aL1U1_x * Real(0.0075537) + (aL1U0_y *
-      Real(1.7625732384100001) + (t119 * Real(0.4084992088750001) - (c1 * Real(43.48696972500001) +
-      an3c_z)))));
-  const Real an0_z = s3 * (aL3n_y - an4_x) + (c3 * (aL3n_x - an4_z) + (r2_y * af3c_z - (s1 * aL1n_y + (c1 *
-      aL1n_x - (r3_y * aL3f_z + (s2 * aL2n_y - (aL0n_z + c2 * aL2n_x)))))));
-  tau[0] = -an0_z;
-  tau[1] = an2c_z;
+  const Real an3c_z = an3_z + (r3_y * aL3F_x + (r3_x * aL3F_y - (aL2U1_x * Real(0.0020475) + t148 *
+      Real(0.07714261911624999) + (aL2U0_y * Real(0.59360445167475) + aL2a_x * Real(1.598759275)))));
+  const Real an2c_z = an3c_z - (r2_y * af3c_x - (r2_x * af3c_y - (aL1U1_x * Real(0.0075537) + (aL1U0_y *
+      Real(1.7625732384100001) - (c1 * Real(43.48696972500001) - t118 * Real(0.4084992088750001))))));
+  const Real an0_z = s3 * (c4 * t266 + (s4 * t268 - (Real(0.0019412038252500001) * (ala2w00 - aL3U0_x) +
+      (ala3o_z * Real(0.017784735) - aL3U2_x * Real(0.004608836229750008))))) + (c3 * (an4_z - (aL3U2_y *
+      Real(0.10971) + aL3U1_x * Real(0.0019412038252500001))) + (c2 * aL2n_x - r3_y * aL3f_z - (r2_y * af3c_z
+      + (s2 * aL2n_y - (s1 * aL1n_y + (aL0n_z + c1 * aL1n_x))))));
+  tau[0] = an0_z;
+  tau[1] = -an2c_z;
   tau[2] = -an3c_z;
-  tau[3] = an3_z;
+  tau[3] = -an3_z;
   tau[4] = an4_z;
   tau[5] = aL5n_z;
 }
@@ -839,7 +821,6 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real S4b_zz = S5c_xx - Real(0.126621);
   const Real S4b_t = s4 * t34;
   const Real S4b_xx = S5c_xx - s4 * S4b_t;
-  const Real S4b_xy = c4 * S4b_t;
   const Real S4b_xz = c4 * S5b_xy;
   const Real S4b_yz = s4 * S5b_xy;
   const Real S4c_xx = S5b_xx + Real(0.004608836229750008);
@@ -847,8 +828,8 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real S4c_yy = S4b_xx - Real(0.10971);
   const Real S3b_zz = S4c_xx - S4c_yy;
   const Real S3b_d = S4c_xx + S4c_yy;
-  const Real S3b_t = c3 * S4b_xz * Real(2.0) - s3 * S3b_d;
-  const Real S3b_xz = c3 * S4c_xz - s3 * S4b_xy;
+  const Real S3b_t = c3 * (S4b_xz * Real(2.0)) - s3 * S3b_d;
+  const Real S3b_xz = c3 * S4c_xz - s3 * (c4 * S4b_t);
   const Real h3b_x = c3 * Real(0.017784735);
   const Real h3b_y = s3 * Real(0.017784735);
   const Real D3 = t16 * Real(0.00697606230375);
@@ -857,45 +838,37 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real h2b_y = c2 * Real(1.598759275);
   const Real h2_x = h3b_x - h2b_x;
   const Real h2_y = h3b_y - h2b_y;
-  const Real J2 = D3 - (S3b_zz - D3) - Real(0.59565195167475);
+  const Real J2 = S3b_zz - (D3 + (D3 - Real(0.59565195167475)));
   const Real S2_xz = S3b_xz + S2b_xz;
   const Real t86 = r2_x * h2_x;
   const Real D2 = t86 - r2_y * h2_y;
   const Real S1b_xz = s1 * Real(0.4084992088750001);
-  const Real J1 = D2 + (J2 + D2) - Real(1.7701269384100002);
+  const Real J1 = J2 + Real(1.7701269384100002) - (D2 + D2);
   const Real S1_xz = S2_xz + S1b_xz;
-  const Real S0b_zz = J1 + (S4c_xx + (s3 * S3b_t + (s2 * s2 * Real(0.59155695167475) + (s1 * s1 *
-      Real(1.7550195384100002) + (S4b_zz - (S4b_xx + Real(2.0) * (r3_x * h3b_x + t86))))))) -
-      Real(0.28893741244275);
+  const Real S0b_zz = Real(2.0) * (r3_x * h3b_x + t86) - (S4b_zz + s2 * (s2 * Real(0.59155695167475)) -
+      (S4b_xx - (S4c_xx + (s1 * (s1 * Real(1.7550195384100002)) - Real(0.28893741244275))))) - (s3 * S3b_t -
+      J1);
   const Real w2_z = state.z[1] + state.z[2];
   const Real w3_z = w2_z + state.z[3];
-  const Real w4pp_x = c3 * state.z[0];
   const Real w4pp_y = s3 * state.z[0];
   const Real w5pp_y = c4 * w3_z + s4 * w4pp_y;
-  const Real v0L_z = S0b_zz * state.z[0];
   const Real v1L_x = S1_xz * state.z[1];
-  const Real v1L_z = J1 * state.z[1];
   const Real v2o_x = r2_y * state.z[1];
   const Real v2o_y = r2_x * state.z[1];
-  const Real v2P_x = h2_y * state.z[2];
-  const Real v2P_y = h2_x * state.z[2];
   const Real v2L_x = S2_xz * state.z[2];
   const Real v2L_z = J2 * state.z[2];
-  const Real v3o_x = v2o_x - Real(0.39225) * (c2 * w2_z);
+  const Real v3o_x = v2o_x - c2 * (Real(0.39225) * w2_z);
   const Real v3o_y = v2o_y + r3_x * w2_z;
-  const Real v3P_x = h3b_y * state.z[3];
-  const Real v3P_y = h3b_x * state.z[3];
   const Real v3L_x = S3b_xz * state.z[3];
   const Real v3L_z = S3b_zz * state.z[3];
-  const Real v4L_x = S4b_xz * state.z[4];
-  const Real v4L_y = S4b_yz * state.z[4];
   const Real v4L_z = S4b_zz * state.z[4];
   const Real v5L_z = state.z[5] * Real(0.0171364731454);
-  const Real T5 = (state.z[0] * v0L_z + (state.z[1] * v1L_z + (state.z[2] * v2L_z - (state.z[3] * v3L_z -
-      (state.z[4] * v4L_z - state.z[5] * v5L_z))))) * Real(0.5) - (state.z[0] * (v3L_x + (v1L_x + v2L_x)) +
-      (w5pp_y * v5L_z - (w4pp_y * v4L_x + (w4pp_x * v4L_z - (w3_z * v4L_y - (v3o_y * v3P_y - (v3o_x * v3P_x +
-      (w2_z * v3L_z - (v2o_y * v2P_y + (state.z[1] * v2L_z - v2o_x * v2P_x))))))))));
-  return -T5;
+  const Real T5 = (S0b_zz * (state.z[0] * state.z[0]) + (J1 * (state.z[1] * state.z[1]) + (state.z[2] * v2L_z
+      + (state.z[3] * v3L_z - (state.z[4] * v4L_z - state.z[5] * v5L_z))))) * Real(0.5) + (state.z[1] * v2L_z
+      - (h2_x * (state.z[2] * v2o_y) + v3o_y * (h3b_x * state.z[3]) + (v4L_z * (c3 * state.z[0]) - (h3b_y *
+      (state.z[3] * v3o_x) + S4b_yz * (w3_z * state.z[4])))) + (state.z[0] * (v1L_x + (v2L_x + v3L_x)) + (w2_z
+      * v3L_z + (w5pp_y * v5L_z + (h2_y * (state.z[2] * v2o_x) - w4pp_y * (S4b_xz * state.z[4]))))));
+  return T5;
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -908,10 +881,8 @@ Real potential_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real c3 = s2 * t13 + (s1 * t4 - t3 * t5) * t14;
   const Real h3b_x = c3 * Real(0.017784735);
   const Real h2b_x = s2 * Real(1.598759275);
-  const Real h2_x = h3b_x - h2b_x;
   const Real h1b_x = s1 * Real(4.4329225);
-  const Real h1_x = h2_x - h1b_x;
-  const Real hg0_z = h1_x + Real(1.5151591301);
+  const Real hg0_z = h3b_x - (h2b_x + (h1b_x - Real(1.5151591301)));
   const Real V = hg0_z * Real(9.81);
   return V;
 }

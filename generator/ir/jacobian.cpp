@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "ir/function_partials.hpp"
@@ -154,7 +155,8 @@ class Graph {
     users_[v].clear();
   }
 
-  /// Signs that all have to hold, of values by their number, in order, and the selection that asks for them.
+  /// Signs that all have to hold, of values by their number, and the selection that asks for them. First those of
+  /// values that always exist, which may decide whether the others do.
   using Guard = std::vector<std::pair<std::size_t, Op>>;
   /// A sum of values each of which is taken where its guard holds.
   using Parts = std::map<Guard, Signed>;
@@ -276,9 +278,13 @@ class Graph {
   }
 
   /// Nothing where signs contradict each other.
-  static std::optional<Guard> conjunction(const Guard& a, const Guard& b) {
+  std::optional<Guard> conjunction(const Guard& a, const Guard& b) const {
+    const auto key = [this](const auto& sign) {
+      return std::tuple(!exists_.at(sign.first), sign.first, sign.second);
+    };
     Guard both;
-    std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both));
+    std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both),
+                   [&](const auto& x, const auto& y) { return key(x) < key(y); });
     const auto contradicts = [](const auto& x, const auto& y) { return x.first == y.first; };
     if (std::adjacent_find(both.begin(), both.end(), contradicts) != both.end()) return {};
     return both;

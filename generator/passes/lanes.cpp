@@ -8,6 +8,7 @@
 
 #include "ir/builder.hpp"
 #include "passes/lane_order.hpp"
+#include "passes/limb_sums.hpp"
 #include "support/check.hpp"
 
 namespace jourdain::passes {
@@ -57,8 +58,8 @@ class Gain {
 
   bool is_kept(ValueId value) const { return bundle_[value.value] && kept_[*bundle_[value.value]]; }
 
-  /// In halves of an operation: one for each lane but the first of a term that is gathered from values computed alone,
-  /// one for each lane but the first that is read alone.
+  /// In halves of an operation: one for each lane but the first of a term that is gathered, two where it is read from
+  /// other lanes for that; one for each lane but the first that is read alone.
   std::size_t cost(std::size_t p) const {
     const std::vector<LikeGroups::Lane>& lanes = bundles_[p].lanes;
     std::size_t sum = 0;
@@ -69,7 +70,8 @@ class Gain {
       });
       const bool is_angle =
           program_[first].op == Op::kSin || program_[first].op == Op::kCos;  // gathered once
-      if (!is_shared && !is_angle && !is_kept(first)) sum += lanes.size() - 1;
+      if (is_shared || is_angle || stands_in_lanes(lanes, i)) continue;
+      for (std::size_t l = 1; l < lanes.size(); ++l) sum += is_kept(lanes[l].terms[i].value) ? 2 : 1;
     }
     for (const LikeGroups::Lane& lane : lanes) {
       const std::vector<ValueId>& users = groups_.users(lane.root);
@@ -79,6 +81,19 @@ class Gain {
         ++sum;
     }
     return sum;
+  }
+
+  /// Are the terms `i` of all lanes lanes of one bundle, in their order?
+  bool stands_in_lanes(const std::vector<LikeGroups::Lane>& lanes, std::size_t i) const {
+    if (!is_kept(lanes[0].terms[i].value)) return false;
+    const std::vector<LikeGroups::Lane>& of = bundles_[*bundle_[lanes[0].terms[i].value.value]].lanes;
+    const auto root = [&](std::size_t l) { return of[l].root; };
+    for (std::size_t from = 0; from + lanes.size() <= of.size(); from += lanes.size()) {
+      std::size_t l = 0;
+      while (l < lanes.size() && lanes[l].terms[i].value == root(from + l)) ++l;
+      if (l == lanes.size()) return true;
+    }
+    return false;
   }
 
   const Program& program_;
@@ -275,10 +290,12 @@ std::size_t saved_by_lanes(const Program& program) {
 }
 
 Program in_lanes(const Program& program, const std::vector<LikeLimbs>& limbs, const LeastGain& least) {
-  const Groups groups(program);
-  std::vector<LikeGroups> bundles = Gain(program, groups, like_groups(program, groups, limbs)).worthwhile();
+  const Reordered by_limb = limb_by_limb(program, limbs);
+  const Groups groups(by_limb.program, by_limb.apart);
+  std::vector<LikeGroups> bundles =
+      Gain(by_limb.program, groups, like_values(by_limb.program, groups, limbs).groups).worthwhile();
   if (bundles.empty()) return program;
-  Program result = Building(program, groups, std::move(bundles)).run();
+  Program result = Building(by_limb.program, groups, std::move(bundles)).run();
   const std::size_t saved = saved_by_lanes(result);
   const bool pays =
       saved >= least.operations && saved * 100 >= ir::count_operations(program).arithmetic() * least.percent;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -18,46 +19,6 @@ namespace {
 
 constexpr std::size_t kMostCompared = 64;  ///< values on the way from what limbs share to one of their values
 constexpr std::size_t kMostLanes = 4;
-
-bool is_sum(Op op) { return op == Op::kAdd || op == Op::kSubtract; }
-
-}  // namespace
-
-Groups::Groups(const Program& program)
-    : groups_(program.nodes.size()), within_(program.nodes.size()), users_(program.nodes.size()) {
-  const std::vector<std::size_t> uses = ir::use_counts(program);
-  std::vector<bool> is_output(program.nodes.size());
-  for (const ir::Output& output : program.outputs) is_output[output.value.value] = true;
-  for (std::size_t i = 0; i < program.nodes.size(); ++i) {
-    const Node& node = program.nodes[i];
-    const int operands = ir::operand_count(node.op);
-    if (operands == 0) continue;
-    Group group{is_sum(node.op) ? Op::kAdd : node.op, {}};
-    for (int k = 0; k < operands; ++k) {
-      const ValueId operand = k == 0 ? node.a : node.b;
-      const bool negative = node.op == Op::kSubtract && k == 1;
-      const std::optional<Group>& inner = groups_[operand.value];
-      const bool joins = inner && inner->op == group.op && uses[operand.value] == 1 &&
-                         !is_output[operand.value] && (group.op == Op::kAdd || group.op == Op::kMultiply);
-      if (!joins) {
-        group.terms.push_back({operand, negative});
-        continue;
-      }
-      within_[operand.value] = true;
-      for (const Term& term : inner->terms) group.terms.push_back({term.value, term.negative != negative});
-    }
-    groups_[i] = std::move(group);
-  }
-  for (std::size_t i = 0; i < program.nodes.size(); ++i)
-    if (within_[i]) groups_[i].reset();
-  for (std::size_t i = 0; i < program.nodes.size(); ++i)
-    if (groups_[i])
-      for (const Term& term : groups_[i]->terms)
-        if (users_[term.value.value].empty() || users_[term.value.value].back() != ValueId(i))
-          users_[term.value.value].push_back(ValueId(i));
-}
-
-namespace {
 
 /// Values that angles are made of.
 std::vector<bool> made_into_angles(const Program& program) {
@@ -106,12 +67,16 @@ class Search {
     }
   }
 
-  std::vector<LikeGroups> finish() {
+  LikeValues finish() {
+    std::vector<SumOverLimbs> sums;
+    for (std::size_t i = 0; i < program_.nodes.size(); ++i)
+      if (SumOverLimbs sum = sum_over_limbs(ValueId(i)); !sum.together.empty())
+        sums.push_back(std::move(sum));
     const std::vector<bool> negative = signs_.solution(found_.size() * kMostLanes);
     for (std::size_t p = 0; p < found_.size(); ++p)
       for (std::size_t l = 0; l < found_[p].lanes.size(); ++l)
         found_[p].lanes[l].negative = negative[unknown(p, l)];
-    return std::move(found_);
+    return {std::move(found_), std::move(sums)};
   }
 
  private:
@@ -331,6 +296,46 @@ class Search {
     return {};
   }
 
+  /// Decides signs that are free so that as many groups as possible go together.
+  SumOverLimbs sum_over_limbs(ValueId root) {
+    SumOverLimbs sum{root, {}};
+    const Group* group = groups_.at(root);
+    if (!group || group->op != Op::kAdd || bundle_[root.value]) return sum;
+    std::map<std::size_t, std::map<ValueId, bool>> terms;  // by bundle: is it subtracted?
+    std::set<std::size_t> twice;                           // read so: left alone
+    for (const Term& term : group->terms)
+      if (const auto& bundle = bundle_[term.value.value])
+        if (!terms[*bundle].emplace(term.value, term.negative).second) twice.insert(*bundle);
+    for (const std::size_t bundle : twice) terms.erase(bundle);
+    const auto differs = [&](std::size_t bundle, std::size_t lane) {
+      const auto sign = [&](std::size_t l) { return terms.at(bundle).at(found_[bundle].lanes[l].root); };
+      return sign(lane) != sign(0);
+    };
+    const auto go_together = [&](std::size_t p, std::size_t q) {
+      if (origin_[p] != origin_[q]) return false;
+      const std::size_t before = signs_.size();
+      for (std::size_t l = 1; l < found_[p].lanes.size(); ++l)
+        if (!signs_.add({unknown(p, l), unknown(q, l)}, differs(p, l) != differs(q, l))) {
+          signs_.forget(before);
+          return false;
+        }
+      return true;
+    };
+    for (const auto& [bundle, signs] : terms) {
+      if (signs.size() != found_[bundle].lanes.size()) continue;
+      const auto place = std::find_if(sum.together.begin(), sum.together.end(),
+                                      [&, p = bundle](const auto& list) { return go_together(list[0], p); });
+      if (place != sum.together.end())
+        place->push_back(bundle);
+      else
+        sum.together.push_back({bundle});
+    }
+    sum.together.erase(std::remove_if(sum.together.begin(), sum.together.end(),
+                                      [](const auto& list) { return list.size() < 2; }),
+                       sum.together.end());
+    return sum;
+  }
+
   const Program& program_;
   const Groups& groups_;
   std::map<std::pair<ir::LeafKind, std::size_t>, ValueId> leaves_;
@@ -347,8 +352,7 @@ class Search {
 
 }  // namespace
 
-std::vector<LikeGroups> like_groups(const Program& program, const Groups& groups,
-                                    const std::vector<LikeLimbs>& limbs) {
+LikeValues like_values(const Program& program, const Groups& groups, const std::vector<LikeLimbs>& limbs) {
   Search search(program, groups);
   for (std::size_t kind = 0; kind < limbs.size(); ++kind) search.run(limbs[kind], kind);
   return search.finish();

@@ -9,6 +9,7 @@
 #include "passes/hoist.hpp"
 #include "passes/resubstitute.hpp"
 #include "passes/rewrite.hpp"
+#include "passes/term_order.hpp"
 
 namespace jourdain::passes {
 
@@ -37,6 +38,7 @@ const std::vector<Pass>& pipeline() {
       {"remove_dead_code", Effect::kExact, each_function(remove_dead_code)},
       {"resubstitute", Effect::kReassociating, each_function(resubstitute), true},
       {"hoist", Effect::kExact, hoist},
+      {"order_terms", Effect::kReassociating, each_function(order_terms), false, true},
   };
   return passes;
 }
@@ -50,7 +52,7 @@ std::vector<std::string> pass_names() {
 std::vector<std::string> dear_pass_names() {
   std::vector<std::string> names;
   for (const Pass& pass : pipeline())
-    if (pass.is_dear) names.emplace_back(pass.name);
+    if (pass.is_dear || pass.is_last) names.emplace_back(pass.name);
   return names;
 }
 
@@ -85,23 +87,30 @@ PassRecord run(const Pass& pass, Module& module) {
 
 Module optimise_once(Module module) {
   for (const Pass& pass : pipeline())
-    if (!pass.is_dear) module = pass.run(module);
+    if (!pass.is_dear && !pass.is_last) module = pass.run(module);
   return module;
 }
 
 Optimised optimise(Module module, const std::vector<std::string>& switched_off, const Watch& watch) {
   Optimised result;
-  for (int round = 1; round <= kMostRounds; ++round) {
+  const auto is_on = [&](const Pass& pass) {
+    return std::find(switched_off.begin(), switched_off.end(), pass.name) == switched_off.end();
+  };
+  int round = 0;
+  const auto apply = [&](const Pass& pass) {
+    result.records.push_back(run(pass, module));
+    result.records.back().round = round;
+    if (watch) watch(result.records.back(), module);
+  };
+  while (++round <= kMostRounds) {
     const Module before = module;
-    for (const Pass& pass : pipeline()) {
-      if (std::find(switched_off.begin(), switched_off.end(), pass.name) != switched_off.end()) continue;
-      if (pass.is_dear && arithmetic(module) != arithmetic(before)) continue;
-      result.records.push_back(run(pass, module));
-      result.records.back().round = round;
-      if (watch) watch(result.records.back(), module);
-    }
+    for (const Pass& pass : pipeline())
+      if (is_on(pass) && !pass.is_last && (!pass.is_dear || arithmetic(module) == arithmetic(before)))
+        apply(pass);
     if (same_operations(module, before)) break;
   }
+  for (const Pass& pass : pipeline())
+    if (is_on(pass) && pass.is_last) apply(pass);
   result.module = std::move(module);
   return result;
 }

@@ -20,13 +20,15 @@ struct Pass {
   /// Takes much longer than others: it waits until those before it save nothing, and is left out where two ways are
   /// compared.
   bool is_dear = false;
+  /// Saves nothing: it runs once, on what the others have come to rest at, and is left out where two ways are compared.
+  bool is_last = false;
 };
 
-/// In the order in which they run. So is the whole: of an optimised module it gives the same programs.
+/// In the order in which they run. Those that are not last are idempotent together, too.
 const std::vector<Pass>& pipeline();
 
 std::vector<std::string> pass_names();
-/// Of those that are dear.
+/// Of those that are left out where two ways are compared.
 std::vector<std::string> dear_pass_names();
 
 struct PassRecord {
@@ -46,12 +48,13 @@ struct Optimised {
 /// Is shown the module after each pass.
 using Watch = std::function<void(const PassRecord&, const ir::Module&)>;
 
-/// Runs the pipeline until it changes nothing. Names in `switched_off` are left out (to count what a pass saves).
+/// Runs the pipeline until it changes nothing, and last passes once. Names in `switched_off` are left out (to count what
+/// a pass saves).
 Optimised optimise(ir::Module module, const std::vector<std::string>& switched_off = {},
                    const Watch& watch = nullptr);
 
-/// The module after one round of the pipeline without dear passes: enough to compare operations of two ways to write
-/// the same.
+/// The module after one round of the pipeline without passes that are dear or last: enough to compare operations of two
+/// ways to write the same.
 ir::Module optimise_once(ir::Module module);
 
 std::size_t arithmetic(const ir::Module& module);

@@ -65,6 +65,14 @@ SampledRounding::Estimate SampledRounding::result(double value, Estimate a, doub
   return {value, std::isfinite(all) ? std::max({std::fabs(value), from_a, from_b}) : NAN};
 }
 
+SampledRounding::Estimate SampledRounding::sum(Estimate a, Estimate b) {
+  return result(a.value + b.value, a, 1, b, 1);
+}
+
+SampledRounding::Estimate SampledRounding::product(Estimate a, Estimate b) {
+  return result(a.value * b.value, a, b.value, b, a.value);
+}
+
 SampledRounding::Estimate SampledRounding::evaluated(const Node& node, Estimate a, Estimate b,
                                                      std::size_t sample) {
   switch (node.op) {
@@ -77,11 +85,11 @@ SampledRounding::Estimate SampledRounding::evaluated(const Node& node, Estimate 
     case Op::kNegate:
       return {-a.value, a.moved};
     case Op::kAdd:
-      return result(a.value + b.value, a, 1, b, 1);
+      return sum(a, b);
     case Op::kSubtract:
       return result(a.value - b.value, a, 1, b, 1);
     case Op::kMultiply:
-      return result(a.value * b.value, a, b.value, b, a.value);
+      return product(a, b);
     case Op::kDivide:
       return result(a.value / b.value, a, 1 / b.value, b, a.value / b.value / b.value);
     case Op::kSqrt: {  // of the size: what is equal stays so, and few samples are lost
@@ -125,17 +133,10 @@ SampledRounding::Estimate SampledRounding::own(const Node& node, std::size_t sam
 
 SampledRounding::Estimate SampledRounding::defined(const Node& node, const Definition& definition,
                                                    std::size_t sample) const {
-  const auto operand = [&](ir::Signed value) {
-    const Estimate& estimate = at(value.value, sample);
-    return Estimate{value.negative ? -estimate.value : estimate.value, estimate.moved};
-  };
+  const auto operand = [&](ir::Signed value) { return at(value, sample); };
   const auto constant = [](const cln::cl_R& value) {
     const double nearest = support::nearest_double(value);
     return number(nearest, support::to_exact(nearest) != value);
-  };
-  const auto sum = [](Estimate a, Estimate b) { return result(a.value + b.value, a, 1, b, 1); };
-  const auto product = [](Estimate a, Estimate b) {
-    return result(a.value * b.value, a, b.value, b, a.value);
   };
   switch (definition.kind) {
     case Definition::Kind::kSum:
@@ -155,22 +156,45 @@ SampledRounding::Estimate SampledRounding::defined(const Node& node, const Defin
   return own(node, sample);
 }
 
-bool SampledRounding::admits(ir::ValueId id, const Definition& definition) const {
+SampledRounding::Estimate SampledRounding::defined(Op op, const Association& association,
+                                                   std::size_t sample) const {
+  std::vector<Estimate> places;
+  for (const ir::Signed& term : association.terms) places.push_back(at(term, sample));
+  for (const auto& [a, b] : association.steps)
+    places.push_back(op == Op::kAdd ? sum(places[a], places[b]) : product(places[a], places[b]));
+  return places.back();
+}
+
+template <class Defined>
+bool SampledRounding::admits_values(ir::ValueId id, const Defined& defined) const {
   std::size_t compared = 0;
   for (std::size_t k = 0; k < kSamples; ++k) {
     const double limit = limits_[id.value * kSamples + k];
     if (!std::isfinite(limit)) continue;
     ++compared;
-    const Estimate other = defined(program_[id], definition, k);
+    const Estimate other = defined(k);
     if (!(other.moved <= limit * (1 + kSlack))) return false;
     if (!(std::fabs(other.value - at(id, k).value) <= kSameValue * limit)) return false;
   }
   return compared >= kSamples / 2;
 }
 
+bool SampledRounding::admits(ir::ValueId id, const Definition& definition) const {
+  return admits_values(id, [&](std::size_t k) { return defined(program_[id], definition, k); });
+}
+
+bool SampledRounding::admits(ir::ValueId id, Op op, const Association& association) const {
+  return admits_values(id, [&](std::size_t k) { return defined(op, association, k); });
+}
+
 void SampledRounding::follow(ir::ValueId id, const Definition& definition) {
   for (std::size_t k = 0; k < kSamples; ++k)
     estimates_[id.value * kSamples + k] = defined(program_[id], definition, k);
+}
+
+void SampledRounding::follow(ir::ValueId id, Op op, const Association& association) {
+  for (std::size_t k = 0; k < kSamples; ++k)
+    estimates_[id.value * kSamples + k] = defined(op, association, k);
 }
 
 }  // namespace jourdain::passes

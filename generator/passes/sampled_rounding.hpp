@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "passes/association.hpp"
 #include "passes/definition.hpp"
 
 namespace jourdain::passes {
@@ -19,8 +20,12 @@ class SampledRounding {
   /// number where it is one there? The values that it reads are as they were last followed.
   bool admits(ir::ValueId id, const Definition& definition) const;
 
+  /// The same of a sum or product that is associated otherwise.
+  bool admits(ir::ValueId id, ir::Op op, const Association& association) const;
+
   /// From now on `id` is computed by `definition`.
   void follow(ir::ValueId id, const Definition& definition);
+  void follow(ir::ValueId id, ir::Op op, const Association& association);
 
  private:
   struct Estimate {
@@ -32,12 +37,21 @@ class SampledRounding {
   static double sampled(const ir::Node& leaf, std::size_t sample);
   static Estimate number(double value, bool is_rounded);
   static Estimate result(double value, Estimate a, double by_a, Estimate b, double by_b);
+  static Estimate sum(Estimate a, Estimate b);
+  static Estimate product(Estimate a, Estimate b);
   static Estimate evaluated(const ir::Node& node, Estimate a, Estimate b, std::size_t sample);
   static Estimate of_function(support::Function function, Estimate a, Estimate b);
   Estimate own(const ir::Node& node, std::size_t sample) const;
   Estimate defined(const ir::Node& node, const Definition& definition, std::size_t sample) const;
+  Estimate defined(ir::Op op, const Association& association, std::size_t sample) const;
+  template <class Defined>
+  bool admits_values(ir::ValueId id, const Defined& defined) const;
   const Estimate& at(ir::ValueId id, std::size_t sample) const {
     return estimates_[id.value * kSamples + sample];
+  }
+  Estimate at(ir::Signed value, std::size_t sample) const {
+    const Estimate& estimate = at(value.value, sample);
+    return {value.negative ? -estimate.value : estimate.value, estimate.moved};
   }
 
   const ir::Program& program_;

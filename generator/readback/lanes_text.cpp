@@ -3,43 +3,48 @@
 namespace jourdain::readback {
 
 const char* lanes_text() {
-  return R"(template <int N, class Real>
+  return R"(#ifdef __GNUC__
+#define JOURDAIN_LANE JOURDAIN_FUNCTION __attribute__((always_inline))
+#else
+#define JOURDAIN_LANE JOURDAIN_FUNCTION
+#endif
+template <int N, class Real>
 struct Several;
 template <class Real>
 struct Several<2, Real> {
   Real a, b;
 
-  JOURDAIN_FUNCTION const Real& operator[](int lane) const noexcept { return lane == 0 ? a : b; }
-  JOURDAIN_FUNCTION friend Several operator+(const Several& x, const Several& y) noexcept { return {x.a + y.a, x.b + y.b}; }
-  JOURDAIN_FUNCTION friend Several operator+(const Several& x, const Real& y) noexcept { return {x.a + y, x.b + y}; }
-  JOURDAIN_FUNCTION friend Several operator+(const Real& x, const Several& y) noexcept { return {x + y.a, x + y.b}; }
-  JOURDAIN_FUNCTION friend Several operator-(const Several& x, const Several& y) noexcept { return {x.a - y.a, x.b - y.b}; }
-  JOURDAIN_FUNCTION friend Several operator-(const Several& x, const Real& y) noexcept { return {x.a - y, x.b - y}; }
-  JOURDAIN_FUNCTION friend Several operator-(const Real& x, const Several& y) noexcept { return {x - y.a, x - y.b}; }
-  JOURDAIN_FUNCTION friend Several operator*(const Several& x, const Several& y) noexcept { return {x.a * y.a, x.b * y.b}; }
-  JOURDAIN_FUNCTION friend Several operator*(const Several& x, const Real& y) noexcept { return {x.a * y, x.b * y}; }
-  JOURDAIN_FUNCTION friend Several operator*(const Real& x, const Several& y) noexcept { return {x * y.a, x * y.b}; }
-  JOURDAIN_FUNCTION friend Several operator/(const Several& x, const Several& y) noexcept { return {x.a / y.a, x.b / y.b}; }
-  JOURDAIN_FUNCTION friend Several operator/(const Several& x, const Real& y) noexcept { return {x.a / y, x.b / y}; }
-  JOURDAIN_FUNCTION friend Several operator/(const Real& x, const Several& y) noexcept { return {x / y.a, x / y.b}; }
+  JOURDAIN_LANE const Real& operator[](int lane) const noexcept { return lane == 0 ? a : b; }
+  JOURDAIN_LANE friend Several operator+(const Several& x, const Several& y) noexcept { return {x.a + y.a, x.b + y.b}; }
+  JOURDAIN_LANE friend Several operator+(const Several& x, const Real& y) noexcept { return {x.a + y, x.b + y}; }
+  JOURDAIN_LANE friend Several operator+(const Real& x, const Several& y) noexcept { return {x + y.a, x + y.b}; }
+  JOURDAIN_LANE friend Several operator-(const Several& x, const Several& y) noexcept { return {x.a - y.a, x.b - y.b}; }
+  JOURDAIN_LANE friend Several operator-(const Several& x, const Real& y) noexcept { return {x.a - y, x.b - y}; }
+  JOURDAIN_LANE friend Several operator-(const Real& x, const Several& y) noexcept { return {x - y.a, x - y.b}; }
+  JOURDAIN_LANE friend Several operator*(const Several& x, const Several& y) noexcept { return {x.a * y.a, x.b * y.b}; }
+  JOURDAIN_LANE friend Several operator*(const Several& x, const Real& y) noexcept { return {x.a * y, x.b * y}; }
+  JOURDAIN_LANE friend Several operator*(const Real& x, const Several& y) noexcept { return {x * y.a, x * y.b}; }
+  JOURDAIN_LANE friend Several operator/(const Several& x, const Several& y) noexcept { return {x.a / y.a, x.b / y.b}; }
+  JOURDAIN_LANE friend Several operator/(const Several& x, const Real& y) noexcept { return {x.a / y, x.b / y}; }
+  JOURDAIN_LANE friend Several operator/(const Real& x, const Several& y) noexcept { return {x / y.a, x / y.b}; }
 };
 template <class Real>
 struct Several<4, Real> {
   Real a, b, c, d;
 
-  JOURDAIN_FUNCTION const Real& operator[](int lane) const noexcept { return lane == 0 ? a : lane == 1 ? b : lane == 2 ? c : d; }
-  JOURDAIN_FUNCTION friend Several operator+(const Several& x, const Several& y) noexcept { return {x.a + y.a, x.b + y.b, x.c + y.c, x.d + y.d}; }
-  JOURDAIN_FUNCTION friend Several operator+(const Several& x, const Real& y) noexcept { return {x.a + y, x.b + y, x.c + y, x.d + y}; }
-  JOURDAIN_FUNCTION friend Several operator+(const Real& x, const Several& y) noexcept { return {x + y.a, x + y.b, x + y.c, x + y.d}; }
-  JOURDAIN_FUNCTION friend Several operator-(const Several& x, const Several& y) noexcept { return {x.a - y.a, x.b - y.b, x.c - y.c, x.d - y.d}; }
-  JOURDAIN_FUNCTION friend Several operator-(const Several& x, const Real& y) noexcept { return {x.a - y, x.b - y, x.c - y, x.d - y}; }
-  JOURDAIN_FUNCTION friend Several operator-(const Real& x, const Several& y) noexcept { return {x - y.a, x - y.b, x - y.c, x - y.d}; }
-  JOURDAIN_FUNCTION friend Several operator*(const Several& x, const Several& y) noexcept { return {x.a * y.a, x.b * y.b, x.c * y.c, x.d * y.d}; }
-  JOURDAIN_FUNCTION friend Several operator*(const Several& x, const Real& y) noexcept { return {x.a * y, x.b * y, x.c * y, x.d * y}; }
-  JOURDAIN_FUNCTION friend Several operator*(const Real& x, const Several& y) noexcept { return {x * y.a, x * y.b, x * y.c, x * y.d}; }
-  JOURDAIN_FUNCTION friend Several operator/(const Several& x, const Several& y) noexcept { return {x.a / y.a, x.b / y.b, x.c / y.c, x.d / y.d}; }
-  JOURDAIN_FUNCTION friend Several operator/(const Several& x, const Real& y) noexcept { return {x.a / y, x.b / y, x.c / y, x.d / y}; }
-  JOURDAIN_FUNCTION friend Several operator/(const Real& x, const Several& y) noexcept { return {x / y.a, x / y.b, x / y.c, x / y.d}; }
+  JOURDAIN_LANE const Real& operator[](int lane) const noexcept { return lane == 0 ? a : lane == 1 ? b : lane == 2 ? c : d; }
+  JOURDAIN_LANE friend Several operator+(const Several& x, const Several& y) noexcept { return {x.a + y.a, x.b + y.b, x.c + y.c, x.d + y.d}; }
+  JOURDAIN_LANE friend Several operator+(const Several& x, const Real& y) noexcept { return {x.a + y, x.b + y, x.c + y, x.d + y}; }
+  JOURDAIN_LANE friend Several operator+(const Real& x, const Several& y) noexcept { return {x + y.a, x + y.b, x + y.c, x + y.d}; }
+  JOURDAIN_LANE friend Several operator-(const Several& x, const Several& y) noexcept { return {x.a - y.a, x.b - y.b, x.c - y.c, x.d - y.d}; }
+  JOURDAIN_LANE friend Several operator-(const Several& x, const Real& y) noexcept { return {x.a - y, x.b - y, x.c - y, x.d - y}; }
+  JOURDAIN_LANE friend Several operator-(const Real& x, const Several& y) noexcept { return {x - y.a, x - y.b, x - y.c, x - y.d}; }
+  JOURDAIN_LANE friend Several operator*(const Several& x, const Several& y) noexcept { return {x.a * y.a, x.b * y.b, x.c * y.c, x.d * y.d}; }
+  JOURDAIN_LANE friend Several operator*(const Several& x, const Real& y) noexcept { return {x.a * y, x.b * y, x.c * y, x.d * y}; }
+  JOURDAIN_LANE friend Several operator*(const Real& x, const Several& y) noexcept { return {x * y.a, x * y.b, x * y.c, x * y.d}; }
+  JOURDAIN_LANE friend Several operator/(const Several& x, const Several& y) noexcept { return {x.a / y.a, x.b / y.b, x.c / y.c, x.d / y.d}; }
+  JOURDAIN_LANE friend Several operator/(const Several& x, const Real& y) noexcept { return {x.a / y, x.b / y, x.c / y, x.d / y}; }
+  JOURDAIN_LANE friend Several operator/(const Real& x, const Several& y) noexcept { return {x / y.a, x / y.b, x / y.c, x / y.d}; }
 };
 template <int N, class Real>
 struct LanesOf {
@@ -110,6 +115,7 @@ struct LanesOf<4, float> {
   typedef float Type __attribute__((vector_size(16)));
 };
 #endif
+#undef JOURDAIN_LANE
 template <int N, class Real>
 using Lanes = typename LanesOf<N, Real>::Type;
 )";

@@ -15,20 +15,23 @@ using ir::FunctionId;
 namespace {
 
 /// Component of the direction that a column of an array stands for.
-ScaledReal component(const ExactDirection& d, const std::string& array, int column) {
+ScaledReal component(const Point& point, const std::string& array, int column) {
+  const ExactDirection& d = point.direction;
   if (column < 0) return d.time;
   const auto i = static_cast<std::size_t>(column);
   const std::size_t n = d.displacement.size();
   if (array == "B" || array == "D" || array == "r_u") return d.input[i];
   if (array == "A" || array == "C") return i < n ? d.displacement[i] : d.velocity[i - n];
-  return array == "r_y" || array == "zdot_y" ? d.displacement[i] : d.velocity[i];
+  if (array != "r_y" && array != "zdot_y") return d.velocity[i];
+  return d
+      .displacement[i < d.velocity.size() ? i
+                                          : i - point.states];  // a column for each velocity, then carried
 }
 
 class Contraction {
  public:
-  Contraction(const ir::Program& program, const std::vector<ScaledReal>& values,
-              const ExactDirection& direction)
-      : program_(program), values_(values), direction_(direction) {}
+  Contraction(const ir::Program& program, const std::vector<ScaledReal>& values, const Point& point)
+      : program_(program), values_(values), point_(point) {}
 
   /// The numbers of one array, in the order of the program's outputs.
   Part entries(const std::string& array) const {
@@ -45,7 +48,7 @@ class Contraction {
       const ir::Output& output = program_.outputs[k];
       if (std::find(arrays.begin(), arrays.end(), output.name) == arrays.end()) continue;
       part.values.at(static_cast<std::size_t>(output.row)) +=
-          values_[k] * component(direction_, output.name, output.column);
+          values_[k] * component(point_, output.name, output.column);
     }
     return part;
   }
@@ -53,7 +56,7 @@ class Contraction {
  private:
   const ir::Program& program_;
   const std::vector<ScaledReal>& values_;
-  const ExactDirection& direction_;
+  const Point& point_;
 };
 
 std::vector<ScaledReal> widened(const std::vector<double>& values) { return {values.begin(), values.end()}; }
@@ -67,17 +70,17 @@ FunctionId function_of(const ir::Program& program) {
 }
 
 std::vector<Part> parts_of(const ir::Program& program, const std::vector<ScaledReal>& values,
-                           const ExactDirection& direction, std::size_t output_numbers) {
-  const Contraction c(program, values, direction);
-  const std::size_t n = direction.velocity.size();
+                           const Point& point) {
+  const Contraction c(program, values, point);
+  const std::size_t n = point.direction.velocity.size();
   const std::optional<FunctionId> function = ir::function_named(program.name);
   if (function == FunctionId::kResidualDerivatives)
     return {c.entries("M"), c.along("derivatives", {"r_y", "r_z", "r_u", "r_t"}, n)};
   if (function == FunctionId::kForwardDynamicsDerivatives)
     return {c.entries("zdot"), c.along("derivatives", {"zdot_y", "zdot_z"}, n)};
   if (function == FunctionId::kLinearize)
-    return {c.along("state", {"A", "B", "rate_t"}, direction.displacement.size() + n),
-            c.along("outputs", {"C", "D", "output_t"}, output_numbers)};
+    return {c.along("state", {"A", "B", "rate_t"}, point.direction.displacement.size() + n),
+            c.along("outputs", {"C", "D", "output_t"}, point.output_numbers)};
   return {{program.name, values}};
 }
 
@@ -103,7 +106,7 @@ void compare_programs(const ir::Module& module, const Point& point, const Oracle
   const std::size_t first = depth(module.constants);
   for (const ir::Program& program : module.functions) {
     const auto parts = [&](const std::vector<ScaledReal>& values) {
-      return parts_of(program, values, point.direction, point.output_numbers);
+      return parts_of(program, values, point);
     };
     const std::vector<Part> computed = parts(ir::interpret(program, exact)),
                             same_state = moved ? parts(ir::interpret(program, there)) : computed,

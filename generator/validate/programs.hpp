@@ -26,6 +26,7 @@ struct Point {
   ir::LeafValues<double> rounded;  ///< the nearest doubles
   dynamics::ExactDirection direction;
   std::size_t output_numbers = 0;
+  std::size_t states = 0;  ///< velocities that displace nothing
 };
 
 /// A part of what a program computes: all its numbers, or Jacobians times the direction, row by row.
@@ -59,7 +60,7 @@ ir::FunctionId function_of(const ir::Program& program);
 using Oracle = std::function<std::vector<Expected>(const ir::Program&)>;
 
 std::vector<Part> parts_of(const ir::Program& program, const std::vector<ScaledReal>& values,
-                           const dynamics::ExactDirection& direction, std::size_t output_numbers);
+                           const Point& point);
 
 void compare_programs(const ir::Module& module, const Point& point, const Oracle& oracle,
                       Agreement& agreement);

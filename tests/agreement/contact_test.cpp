@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "agreement/judge.hpp"
+#include "compile/compile.hpp"
 #include "model/read/read.hpp"
 #include "reference/descriptor.hpp"
 
@@ -124,6 +125,29 @@ TEST(Contact, LosesWhatHuntAndCrossleySay) {
       EXPECT_NEAR(end.z[2], rebound(speed, damping), 1e-5) << exponent << " " << damping;
       EXPECT_EQ(end.z[0], 0.7);
     }
+}
+
+/// Behind the plane and before it, where its root has no value: F = k d^1.5 (1 + c d'), of a ball that sinks in by d.
+TEST(Contact, IsDifferentiatedWhereItsPowerHasARoot) {
+  const std::string text =
+      "[model]\nname = \"ball\"\n[[body]]\nname = \"ball\"\nmass = 2\n[[joint]]\nname = \"z\"\ntype = "
+      "\"prismatic\"\nparent = \"world\"\nchild = \"ball\"\n[[contact]]\nframe = \"ball\"\nradius = "
+      "0.1\nstiffness = 1e4\nexponent = 1.5\ndamping = 0.3\n";
+  support::Diagnostics diagnostics("ball.toml", text);
+  CompileOptions options;
+  options.functions = {"forward_dynamics_derivatives", "linearize", "residual_derivatives"};
+  const CompiledModel compiled = compile(model::read_mechanism(diagnostics).value(), options);
+  EXPECT_EQ(compiled.verdict.failures, std::vector<std::string>());
+  for (const double depth : {-0.02, 0.004}) {
+    Sample sample;
+    sample.y = {0.1 - depth};
+    sample.z = {-0.2};
+    const std::vector<double> values =
+        interpreted<double>(compiled.module, "forward_dynamics_derivatives", sample);
+    const double d = std::max(depth, 0.0);
+    EXPECT_NEAR(values.at(1), -1.5 * 1e4 * std::sqrt(d) * (1 + 0.3 * 0.2) / 2, 1e-9);
+    EXPECT_NEAR(values.at(2), -1e4 * d * std::sqrt(d) * 0.3 / 2, 1e-9);
+  }
 }
 
 TEST(Contact, CreepsOnASlopeAsSmoothedFrictionLetsIt) {

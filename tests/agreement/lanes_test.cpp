@@ -134,16 +134,16 @@ TEST(Lanes, HaveTheBitsOfTheInterpreterInWiderVectors) {
   check("clang++", as_interpreted("-mavx"), 0);
 }
 
-/// Of robots: operations are as many, and so many of them are saved.
+/// Of robots: operations are no more, and so many of them are saved.
 TEST(Lanes, SaveOperationsOfRobots) {
   struct Robot {
     std::string name;
     std::map<std::string, std::size_t> saved;
   };
   const std::vector<Robot> robots = {
-      {"biped", {{"forward_dynamics", 1501}, {"mass_matrix", 523}, {"inverse_dynamics", 816}}},
-      {"hyq", {{"forward_dynamics", 1513}, {"mass_matrix", 498}, {"inverse_dynamics", 990}}},
-      {"talos_reduced", {{"forward_dynamics", 3508}, {"mass_matrix", 1545}, {"inverse_dynamics", 1809}}}};
+      {"biped", {{"forward_dynamics", 1523}, {"mass_matrix", 527}, {"inverse_dynamics", 829}}},
+      {"hyq", {{"forward_dynamics", 1582}, {"mass_matrix", 501}, {"inverse_dynamics", 1023}}},
+      {"talos_reduced", {{"forward_dynamics", 3551}, {"mass_matrix", 1552}, {"inverse_dynamics", 1831}}}};
   for (const Robot& robot : robots) {
     if (!has_robot(robot.name)) continue;
     model::ReadOptions options;
@@ -155,7 +155,7 @@ TEST(Lanes, SaveOperationsOfRobots) {
     const Derived plain = derive(mechanism, chosen), lanes = in_lanes(plain);
     for (std::size_t i = 0; i < plain.module.functions.size(); ++i) {
       const ir::Program &before = plain.module.functions[i], &after = lanes.module.functions[i];
-      EXPECT_EQ(ir::count_operations(after).arithmetic(), ir::count_operations(before).arithmetic());
+      EXPECT_LE(ir::count_operations(after).arithmetic(), ir::count_operations(before).arithmetic());
       if (const auto it = robot.saved.find(after.name); it != robot.saved.end()) {
         EXPECT_EQ(passes::saved_by_lanes(after), it->second) << robot.name << " " << after.name;
       }

@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <regex>
+#include <sstream>
 
 #include "properties/random_tree.hpp"
 #include "properties/to_toml.hpp"
@@ -89,6 +91,25 @@ TEST(Determinism, TwoProcessesGiveTheSameBytes) {
     compile(description.string(), second);
     expect_same_folder(first, second);
   }
+}
+
+/// Of accelerations, and of closing loops: the last columns of models/loops.md.
+TEST(Golden, TheTableOfLoopsHasTheCountsOfTheManifests) {
+  std::istringstream page(support::read_file((kSource / "models" / "loops.md").string()));
+  const std::regex row("\\| `([a-z0-9_]+)` \\|.* \\| ([0-9]+) \\| ([0-9]+) \\|");
+  std::size_t rows = 0;
+  std::smatch parts;
+  for (std::string line; std::getline(page, line);) {
+    if (!std::regex_match(line, parts, row)) continue;
+    const std::string name = parts[1];
+    const auto operations = nlohmann::json::parse(
+        support::read_file((kSource / "generated" / name / (name + ".json")).string()))["operations"];
+    const char* closing = operations.contains("close_loops") ? "close_loops" : "project";
+    EXPECT_EQ(operations["forward_dynamics"]["arithmetic"], std::stol(parts[2])) << line;
+    EXPECT_EQ(operations[closing]["arithmetic"], std::stol(parts[3])) << line;
+    ++rows;
+  }
+  EXPECT_EQ(rows, 14u);
 }
 
 TEST(Golden, OmissionsSaveWhatTheManifestSays) {

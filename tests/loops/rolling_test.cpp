@@ -94,25 +94,31 @@ std::vector<Complex> bicycle_modes(const ClosedPrograms& programs, double v) {
 }
 
 /// The others are 0, multiple ones that rounding moves: where it is, how it heads, its speed, and what the constraints
-/// forbid. What they leave of the digits of a slow one, -0.004/s at 6 m/s, is little: errors are shares of 0.1/s or
-/// more.
+/// forbid. What they leave of the digits of the slow one at 6 m/s, -0.004/s, is little.
 TEST(Rolling, BicycleHasThePublishedEigenvalues) {
   const ClosedPrograms programs(model_named("bicycle"), true);
   EXPECT_EQ(programs.operations("linearize"),
-            9289u);  // twice as many by the operations that multipliers are computed in
-  double worst = 0, others = 0;
+            9284u);  // twice as many by the operations that multipliers are computed in
+  double worst = 0, slow = 0, others = 0;
   for (int v = 0; v <= 10; ++v) {
     std::vector<Complex> found = bicycle_modes(programs, v);
     for (const Complex expected : published_modes(v)) {
       const Complex mu = nearest(found, expected);
-      worst = std::max(worst, std::abs(mu - expected) / std::max(0.1, std::abs(expected)));
+      const double error = std::abs(mu - expected);
+      if (std::abs(expected) > 0.1)
+        worst = std::max(worst, error / std::abs(expected));
+      else
+        slow = std::max(slow, error);
       found.erase(std::find(found.begin(), found.end(), mu));
     }
     for (const Complex mu : found) others = std::max(others, std::abs(mu));
   }
-  fmt::print("bicycle: eigenvalues within {:.1e} of those published, 0 to 10 m/s; the others {:.1e}/s\n",
-             worst, others);
-  EXPECT_LE(worst, 1e-9);
+  fmt::print(
+      "bicycle: eigenvalues within {:.1e} of those published, 0 to 10 m/s, the slow one {:.1e}/s; the others "
+      "{:.1e}/s\n",
+      worst, slow, others);
+  EXPECT_LE(worst, 1e-11);
+  EXPECT_LE(slow, 1e-7);
   EXPECT_LE(others, 1e-4);
   // As they stand in table 2 of the same: castering, capsize and weave at 5 m/s.
   const std::vector<Complex> at_5 = bicycle_modes(programs, 5);

@@ -167,11 +167,37 @@ TEST(MjcfEqualities, WeldTakesAllSixFreedoms) {
   EXPECT_EQ(rows(drawn, kQuarter, 0).size(), 6);
   EXPECT_LE(rows(drawn, kQuarter, 0).norm(), kRounding);
   EXPECT_GT(rows(drawn, kQuarter, 0.1).norm(), 0.05);
-  // As relpose says: the second body a quarter turned, 1 m along x of the first; met with p at its reference.
-  const Mechanism given = read_cleanly(
-      two(R"(<equality><weld body1="a" body2="b" anchor="0.2 0.3 0" relpose="1 0 0 1 0 0 1"/></equality>)"));
+  // As relpose says: the second body a quarter turned, its anchor at (0.7, 0.2) in the first; with p at its reference
+  // it is 1 m along x.
+  const Mechanism given = read_cleanly(two(
+      R"(<equality><weld body1="a" body2="b" anchor="0.2 0.3 0" relpose="0.7 0.2 0 1 0 0 1"/></equality>)"));
   EXPECT_LE(rows(given, kQuarter, kQuarter).norm(), kRounding);
   EXPECT_GT(rows(given, kQuarter, 0).norm(), 0.05);
+}
+
+TEST(MjcfEqualities, WeldWithoutTorqueIsAConnect) {
+  const auto welded = [](const std::string& attributes) {
+    return read_cleanly(
+        two("<equality><weld body1=\"a\" body2=\"b\" anchor=\"-1 2 0\" " + attributes + "/></equality>"));
+  };
+  const Mechanism free_to_turn = welded(R"(torquescale="0")");
+  ASSERT_EQ(free_to_turn.loops.size(), 1u);
+  EXPECT_EQ(free_to_turn.loops[0].type, LoopType::kBall);
+  EXPECT_LE(rows(free_to_turn, kQuarter, 0).norm(), kRounding);
+  EXPECT_GT(rows(free_to_turn, kQuarter, 0.1).norm(), 0.05);
+  EXPECT_EQ(rows(welded(R"(torquescale="3")"), kQuarter, 0).size(), 6);
+}
+
+TEST(MjcfJoints, FreeOnesThatAreAlignedAreTold) {
+  const auto messages = [](const std::string& align) {
+    return read("<mujoco><worldbody><body name=\"b\"><freejoint name=\"f\"" + align + "/>" + kInertial +
+                "</body></worldbody></mujoco>")
+        .messages;
+  };
+  EXPECT_NE(messages(R"( align="true")").find("warning: align of joint 'f' is ignored"), std::string::npos);
+  EXPECT_EQ(messages(R"( align="auto")"), "");
+  EXPECT_EQ(messages(R"( align="false")"), "");
+  EXPECT_EQ(messages(""), "");
 }
 
 TEST(MjcfEqualities, JointsFollowAPolynomialFromTheirReferences) {

@@ -170,6 +170,45 @@ TEST(Lanes, LeaveWhatDiffersBySigns) {
   EXPECT_EQ(saved_by_lanes(after), 6u) << print(after);
 }
 
+/// Of each limb two products and a third that goes with other signs; all are added up, those of some limbs negative.
+Program sum_over_limbs(const std::vector<bool>& negative, bool has_odd_signs) {
+  Builder builder;
+  Signed total = builder.leaf(LeafKind::kParameter, 0);
+  for (std::size_t l = 0; l < negative.size(); ++l) {
+    const auto leaf = [&](LeafKind kind, std::size_t joint) { return builder.leaf(kind, 2 * l + joint); };
+    const Signed x = leaf(LeafKind::kPosition, 0), y = leaf(LeafKind::kPosition, 1),
+                 v = leaf(LeafKind::kVelocity, 0), w = leaf(LeafKind::kVelocity, 1);
+    const std::vector<Signed> terms = {builder.multiply(x, v), builder.multiply(y, w),
+                                       builder.multiply(x, w)};
+    for (std::size_t k = 0; k < terms.size(); ++k) {
+      builder.output("term", static_cast<int>(l), static_cast<int>(k),
+                     builder.multiply(terms[k], builder.leaf(LeafKind::kParameter, 1)));
+      const bool sign = negative[l] != (has_odd_signs && k == 2 && l == 3);
+      total = builder.add(total, sign ? -terms[k] : terms[k]);
+    }
+  }
+  builder.output("total", -1, -1, total);
+  return builder.finish("sum");
+}
+
+/// Products, and the sums of three of them: of four limbs three are saved of each operation.
+TEST(Lanes, AddUpLimbByLimb) {
+  for (const std::vector<bool>& negative : std::vector<std::vector<bool>>{
+           {false, false, false, false}, {false, true, false, true}, {true, false, false, false}}) {
+    const Program before = sum_over_limbs(negative, false), after = in_lanes(before, {limbs_of(4, 2)}, kAny);
+    expect_same(before, after);
+    EXPECT_EQ(saved_by_lanes(after), 3u * (6 + 2)) << print(after);
+  }
+}
+
+/// Where a limb adds one of them with another sign, products take the sign: no operation is lost.
+TEST(Lanes, AddUpWithSignsThatAreFree) {
+  const Program before = sum_over_limbs({false, true, false, false}, true),
+                after = in_lanes(before, {limbs_of(4, 2)}, kAny);
+  expect_same(before, after);
+  EXPECT_EQ(saved_by_lanes(after), 3u * (6 + 2)) << print(after);
+}
+
 TEST(Lanes, KeepValuesOfRandomPrograms) {
   std::size_t changed = 0;
   for (std::uint64_t seed = 0; seed < 300; ++seed) {

@@ -33,10 +33,13 @@ void expect_idempotent(const ir::Module& lowered, const std::string& what) {
   ir::Module module = lowered;
   for (const Pass& pass : pipeline()) {
     module = pass.run(module);
-    EXPECT_EQ(text(pass.run(module)), text(module)) << pass.name << " of " << what;
+    EXPECT_TRUE(text(pass.run(module)) == text(module)) << pass.name << " of " << what;
   }
-  const ir::Module optimised = optimise(lowered).module;
-  EXPECT_EQ(text(optimise(optimised).module), text(optimised)) << what;
+  std::vector<std::string> last;
+  for (const Pass& pass : pipeline())
+    if (pass.is_last) last.emplace_back(pass.name);
+  const ir::Module optimised = optimise(lowered, last).module;
+  EXPECT_TRUE(text(optimise(optimised, last).module) == text(optimised)) << what;
 }
 
 TEST(Passes, AreIdempotentOnRandomPrograms) {
@@ -115,7 +118,7 @@ TEST(Passes, KeepRandomProgramsSound) {
 TEST(Pipeline, RecordsWhatEachPassDid) {
   const Optimised result = optimise({{}, {random_program(7)}});
   ASSERT_GE(result.records.size(), pipeline().size());
-  EXPECT_EQ(result.records.back().name, "hoist");
+  EXPECT_EQ(result.records.back().name, "order_terms");
   EXPECT_EQ(result.records.back().operations_after, arithmetic(result.module));
   for (std::size_t k = 1; k < result.records.size(); ++k)
     EXPECT_EQ(result.records[k].operations_before, result.records[k - 1].operations_after);

@@ -75,7 +75,7 @@ class Suite {
     poisoned.replacement = poison(was, mutant.replacement);
     // C has no nullptr; a number where a name stood is refused where it is executed.
     if (text.compiled.files[file].name.ends_with(".c") && poisoned.replacement.starts_with("nullptr"))
-      poisoned.replacement.replace(0, 7, "0");
+      poisoned.replacement.replace(0, 7, whole.compare(mutant.at - 2, 2, "->") == 0 ? "nothing" : "0");
     if (is_refused(text, file, mutant))
       ++counts.refused;
     else if (changes_only_space_or_comments(whole, mutant.applied_to(whole)))

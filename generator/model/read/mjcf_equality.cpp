@@ -36,11 +36,11 @@ class EqualityReader {
       return;
     }
     const std::string kind = e.Name();
-    const bool weld = kind == "weld";
+    const bool is_weld = kind == "weld";
     if (!file_.truth(e, "active", true))
       return xml().diagnostics().note(xml().element(e), fmt::format("<{}> is not active: left out", kind));
     if (kind == "joint") return read_joint(e);
-    if (weld || kind == "connect") return read_ends(e, weld);
+    if (is_weld || kind == "connect") return read_ends(e, is_weld);
     if (kind == "tendon" || kind.starts_with("flex") || kind == "distance")
       file_.warning(xml().element(e), fmt::format("<{}> of <equality> is not read", kind),
                     "the mechanism moves without it");
@@ -75,7 +75,9 @@ class EqualityReader {
     return FrameIndex(bodies_.mechanism.frames.size() - 1);
   }
 
-  void read_ends(const XmlElement& e, bool weld) {
+  /// A weld without torque is a connect.
+  void read_ends(const XmlElement& e, bool is_weld) {
+    const bool weld = is_weld && file_.number(e, "torquescale", 1) != 0;
     const SourceRange where = xml().element(e);
     if (e.Attribute("site1") || e.Attribute("site2")) {
       if (!xml().required(e, "site1") || !xml().required(e, "site2")) return;
@@ -85,7 +87,7 @@ class EqualityReader {
         add_loops(e, {*from, *to}, weld, fmt::format("{}_{}", e.Attribute("site1"), e.Attribute("site2")));
       return;
     }
-    if (!xml().required(e, "body1") || (!weld && !xml().required(e, "anchor"))) {
+    if (!xml().required(e, "body1") || (!is_weld && !xml().required(e, "anchor"))) {
       xml().complete().structure = false;
       return;
     }
@@ -98,19 +100,20 @@ class EqualityReader {
       return Ends{add_frame(name + "_from", *first, on_first, where),
                   add_frame(name + "_to", *second, on_second, where)};
     };
-    if (!weld)
+    if (!is_weld)
       return add_loops(e, both({anchor, kIdentity3}, {point_at(inverse(drawn), anchor), kIdentity3}), weld,
                        name);
-    const Pose relative = relative_pose(e, drawn), at_anchor{anchor, kIdentity3};
-    add_loops(e, both(composed(relative, at_anchor), at_anchor), weld, name);
+    const Pose at_anchor{anchor, kIdentity3};
+    add_loops(e, both(relative_pose(e).value_or(composed(drawn, at_anchor)), at_anchor), weld, name);
   }
 
-  /// Of the second body in the first, as a weld keeps it: as drawn where relpose has no quaternion.
-  Pose relative_pose(const XmlElement& e, const Pose& drawn) {
+  /// Where a weld holds the second body's anchor in the first, and how that body is turned. None where relpose has no
+  /// quaternion: as drawn.
+  std::optional<Pose> relative_pose(const XmlElement& e) {
     const std::vector<double> given = file_.numbers(e, "relpose", {0, 1, 0, 0, 0, 0, 0}, 7);
     const std::optional<Matrix3> R = rotation_from_quaternion({given[3], given[4], given[5], given[6]});
-    if (!R) return drawn;
-    return {{given[0], given[1], given[2]}, *R};
+    if (!R) return {};
+    return Pose{{given[0], given[1], given[2]}, *R};
   }
 
   void add_loops(const XmlElement& e, const Ends& ends, bool weld, const std::string& otherwise) {

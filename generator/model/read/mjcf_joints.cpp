@@ -60,6 +60,11 @@ void MjcfBodyReader::read_free(const XmlElement& e, const Chain& chain, bool alo
                 fmt::format("free joint '{}' {}", shown(joint.name),
                             alone ? "is of a body within another" : "is not its body's only joint"));
   }
+  if (is_free(e) && file_.choice(e, "align", {"true", "false", "auto"}, "auto") == "true")
+    file_.warning(
+        file_.xml().value(e, "align"),
+        fmt::format("align of joint '{}' is ignored: its coordinates are those of the body as drawn",
+                    shown(joint.name)));
   joint.initial_origin = placement_of(chain.world, joint.where).position;
   const std::array<double, 4> q = quaternion_of(chain.world.R);
   joint.initial_orientation = {q[0], q[1], q[2], q[3]};

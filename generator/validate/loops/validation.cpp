@@ -206,6 +206,7 @@ Verdict validate_closed(const model::Mechanism& mechanism, const dynamics::Equat
     if (plan.is_reduced() && !(opening(scene, point.exact) < ScaledReal(1e-50)))
       point = point_of(ray, parameters, closure);  // out of reach
     point.output_numbers = output_numbers;
+    point.states = mechanism.states.size();
     points.push_back(std::move(point));
   }
   std::vector<KinkSurvey::Look> looks;
