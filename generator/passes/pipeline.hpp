@@ -48,8 +48,8 @@ struct Optimised {
 /// Is shown the module after each pass.
 using Watch = std::function<void(const PassRecord&, const ir::Module&)>;
 
-/// Runs the pipeline until it changes nothing, and last passes once. Names in `switched_off` are left out (to count what
-/// a pass saves).
+/// Runs the pipeline until it changes nothing, and last passes once. Names in `switched_off` are left out (to count
+/// what a pass saves).
 Optimised optimise(ir::Module module, const std::vector<std::string>& switched_off = {},
                    const Watch& watch = nullptr);
 

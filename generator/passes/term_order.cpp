@@ -122,8 +122,7 @@ class Ordering {
     for (std::size_t i = 1; i < count; ++i) {
       const std::size_t a = first().second;
       const auto [later, b] = first();
-      association.steps.push_back({a, b});
-      waiting.insert({later + kJoin, count + i - 1});
+      waiting.insert({later + kJoin, association.join(a, b)});
     }
     return association;
   }
@@ -142,8 +141,7 @@ class Ordering {
       return groups_.is_within(operand) ? write(operand, association, next) : next++;
     };
     const std::size_t a = place(program_[value].a), b = place(program_[value].b);
-    association.steps.push_back({a, b});
-    return association.terms.size() + association.steps.size() - 1;
+    return association.join(a, b);
   }
 
   /// Pair by pair, unless digits are lost.
@@ -163,14 +161,7 @@ class Ordering {
         [&](ValueId value) -> std::optional<Signed> {
           const std::optional<Association>& association = chosen_[value.value];
           if (!association) return {};
-          std::vector<Signed> places;
-          for (const Signed& term : association->terms)
-            places.push_back(term.negative ? -copy[term.value] : copy[term.value]);
-          for (const auto& [a, b] : association->steps)
-            places.push_back(groups_.at(value)->op == Op::kAdd
-                                 ? copy.builder().add(places[a], places[b])
-                                 : copy.builder().multiply(places[a], places[b]));
-          return places.back();
+          return places_in(copy, groups_.at(value)->op, *association).back();
         },
         within);
     result.apart.resize(result.program.nodes.size());

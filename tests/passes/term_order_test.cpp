@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "ir/builder.hpp"
 #include "passes/random_program.hpp"
@@ -68,16 +69,21 @@ TEST(OrderTerms, AddsLastWhatIsThereLast) {
   EXPECT_TRUE(is_late(last.a) || is_late(last.b)) << print(after);
 }
 
-/// Two large numbers that leave little of each other go first, though one of them is there later than what is added.
+/// Numbers of one size that leave little of each other in pairs stay in pairs, though all that are positive are there
+/// first.
 TEST(OrderTerms, KeepDigits) {
+  constexpr std::size_t kPairs = 8;
   Builder builder;
-  const auto large = [&](std::size_t i) {
-    return builder.function(support::Function::kMax, builder.leaf(LeafKind::kPosition, i),
-                            builder.literal(1e9));
-  };
-  const Signed difference = builder.subtract(large(0), large(1));
-  builder.output("sum", -1, -1, builder.add(difference, builder.leaf(LeafKind::kPosition, 2)));
-  const Program before = builder.finish("sum");
+  std::vector<Signed> lengths;
+  for (std::size_t i = 0; i < 2 * kPairs; ++i) {
+    const Signed x = builder.leaf(LeafKind::kPosition, i);
+    lengths.push_back(builder.unary(Op::kSqrt, builder.add(builder.multiply(x, x), builder.literal(1))));
+  }
+  Signed sum = builder.literal(0);
+  for (std::size_t i = 0; i < kPairs; ++i)
+    sum = builder.add(sum, builder.subtract(lengths[i], lengths[kPairs + i]));
+  builder.output("sum", -1, -1, sum);
+  const Program before = remove_dead_code(builder.finish("sum"));
   EXPECT_EQ(print(order_terms(before)), print(before));
 }
 
