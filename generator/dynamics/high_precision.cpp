@@ -108,9 +108,9 @@ bool is_taken(const ScaledReal& partial) { return partial != ScaledReal(0); }
 }  // namespace
 
 SlopeReal value_of(support::Function function, const SlopeReal& a, const SlopeReal& b) {
-  const Partials f = partials_of(function, a.value, b.value, b.first != ScaledReal(0));
-  const ScaledReal from_a = is_taken(f.by_a) ? f.by_a * a.first : ScaledReal(0);
-  return {f.value, is_taken(f.by_b) ? from_a + f.by_b * b.first : from_a};
+  const Partials f = partials_of(function, a.value, b.value, b.moves());
+  const ScaledReal from_a = is_taken(f.by_a) && a.moves() ? f.by_a * a.first : ScaledReal(0);
+  return {f.value, is_taken(f.by_b) && b.moves() ? from_a + f.by_b * b.first : from_a};
 }
 
 GradientReal value_of(support::Function function, const GradientReal& a, const GradientReal& b) {

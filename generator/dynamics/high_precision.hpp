@@ -15,9 +15,11 @@ using support::ScaledReal;
 /// A number with its first and second derivative by one variable, each in high precision.
 using MovingReal = model::Taylor<ScaledReal>;
 
-/// A number with its first derivative by one variable.
+/// A number with its first derivative by one variable. What does not move has no derivative, whatever is made of it.
 struct SlopeReal {
   ScaledReal value, first = {};
+
+  bool moves() const { return first != ScaledReal(); }
 
   friend SlopeReal operator+(const SlopeReal& a, const SlopeReal& b) {
     return {a.value + b.value, a.first + b.first};
@@ -31,7 +33,7 @@ struct SlopeReal {
   }
   friend SlopeReal sqrt(const SlopeReal& a) {
     const ScaledReal root = sqrt(a.value);
-    return {root, a.first / (ScaledReal(2) * root)};
+    return {root, a.moves() ? a.first / (ScaledReal(2) * root) : ScaledReal()};
   }
   friend SlopeReal sin(const SlopeReal& a) { return {sin(a.value), cos(a.value) * a.first}; }
   friend SlopeReal cos(const SlopeReal& a) { return {cos(a.value), -(sin(a.value) * a.first)}; }

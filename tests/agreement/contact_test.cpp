@@ -150,6 +150,30 @@ TEST(Contact, IsDifferentiatedWhereItsPowerHasARoot) {
   }
 }
 
+/// A root of what a law holds at zero does not move there, though a root's slope is infinite at zero.
+TEST(Laws, AreDifferentiatedWhereTheyHoldARootAtZero) {
+  const auto slope = [](const std::string& law, double y) {
+    const std::string text =
+        "[model]\nname = \"valve\"\n[[body]]\nname = \"b\"\nmass = 2\n[[joint]]\nname = \"q\"\ntype = "
+        "\"prismatic\"\naxis = [1, 0, 0]\nparent = \"world\"\nchild = \"b\"\n[[force]]\njoint = \"q\"\nvalue "
+        "= \"" +
+        law + "\"\n";
+    support::Diagnostics diagnostics("valve.toml", text);
+    CompileOptions options;
+    options.functions = {"forward_dynamics_derivatives", "residual_derivatives"};
+    const CompiledModel compiled = compile(model::read_mechanism(diagnostics).value(), options);
+    EXPECT_EQ(compiled.verdict.failures, std::vector<std::string>()) << law;
+    Sample sample;
+    sample.y = {y};
+    sample.z = {0.3};
+    return interpreted<double>(compiled.module, "forward_dynamics_derivatives", sample).at(1);
+  };
+  EXPECT_EQ(slope("sqrt(max(q, 0))", -0.5), 0);
+  EXPECT_NEAR(slope("sqrt(max(q, 0))", 0.25), 0.5, 1e-12);
+  EXPECT_EQ(slope("max(q, 0)^0.7", -0.5), 0);
+  EXPECT_NEAR(slope("max(q, 0)^0.7", 1), 0.35, 1e-12);
+}
+
 TEST(Contact, CreepsOnASlopeAsSmoothedFrictionLetsIt) {
   // A slope of 20 degrees falls towards +x; the normal leans with it.
   const double slope = 20 * std::acos(-1) / 180, slip = 0.01;
