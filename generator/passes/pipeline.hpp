@@ -20,7 +20,8 @@ struct Pass {
   /// Takes much longer than others: it waits until those before it save nothing, and is left out where two ways are
   /// compared.
   bool is_dear = false;
-  /// Saves nothing: it runs once, on what the others have come to rest at, and is left out where two ways are compared.
+  /// Runs once, on what the others have come to rest at. It saves next to nothing and is left out where two ways are
+  /// compared.
   bool is_last = false;
 };
 
