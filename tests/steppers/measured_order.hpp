@@ -22,14 +22,14 @@ inline long double distance(const std::vector<long double>& a, const std::vector
   return std::sqrt(sum);
 }
 
-/// Orders from the differences of four resolutions, extrapolated to steps of length zero. In long double, so that
-/// rounding does not reach the fifth-order method.
+/// Orders from the differences of four resolutions, from `fewest` steps on, extrapolated to steps of length zero. In long
+/// double, so that rounding hardly reaches the fifth-order method.
 template <class State, class Input, class Step, class History>
 double measured_order(const State& state, const Input& input, long double duration, Step step,
-                      const History& history) {
+                      const History& history, int fewest = 200) {
   std::vector<std::vector<long double>> ends;
-  for (const int steps : {200, 400, 800, 1600})
-    ends.push_back(after(state, input, duration, steps, step, history));
+  for (const int times : {1, 2, 4, 8})
+    ends.push_back(after(state, input, duration, times * fewest, step, history));
   const auto slope = [&ends](std::size_t i) {
     return std::log2(distance(ends[i], ends[i + 1]) / distance(ends[i + 1], ends[i + 2]));
   };

@@ -57,19 +57,21 @@ TEST(Steppers, OperationsAreThoseOfTheManifest){
             JOURDAIN_COUNT_STEPS(rocking_four_bar_all)}
 
 TEST(Steppers, HaveTheirOrders){
-#define JOURDAIN_CHECK_ORDERS(ns, duration)                                                               \
-  {                                                                                                       \
-    const auto visit = [&](const std::string& name, int order, auto step, auto& history) {                \
-      const auto start = ::ns::initial_state(::ns::Model<long double>());                                 \
-      const double measured = measured_order(start, ::ns::Input<long double>{}, duration, step, history); \
-      EXPECT_NEAR(measured, order, 0.1) << #ns << " " << name;                                            \
-    };                                                                                                    \
-    JOURDAIN_VISIT_STEPPERS(ns, long double, visit);                                                      \
+#define JOURDAIN_CHECK_ORDERS(ns, duration, fewest)                                           \
+  {                                                                                           \
+    const auto visit = [&](const std::string& name, int order, auto step, auto& history) {    \
+      const auto start = ::ns::initial_state(::ns::Model<long double>());                     \
+      const double measured =                                                                 \
+          measured_order(start, ::ns::Input<long double>{}, duration, step, history, fewest); \
+      EXPECT_NEAR(measured, order, 0.1) << #ns << " " << name;                                \
+    };                                                                                        \
+    JOURDAIN_VISIT_STEPPERS(ns, long double, visit);                                          \
   }
-    JOURDAIN_CHECK_ORDERS(crane_all, 6)                  // quaternions, prescribed motion
-    JOURDAIN_CHECK_ORDERS(hoop_bead_all, 0.5L)           // a curve
-    JOURDAIN_CHECK_ORDERS(spring_four_bar_all, 2)        // dependent coordinates by Newton's method
-    JOURDAIN_CHECK_ORDERS(rocking_four_bar_all, 0.16L)}  // multipliers, through a dead position
+    JOURDAIN_CHECK_ORDERS(crane_all, 6, 200)            // quaternions, prescribed motion
+    JOURDAIN_CHECK_ORDERS(hoop_bead_all, 0.5L, 200)     // a curve
+    JOURDAIN_CHECK_ORDERS(spring_four_bar_all, 2, 200)  // dependent coordinates by Newton's method
+    // Multipliers, through a dead position. Rounding is seen in short steps of the fifth order: 1e-17 of 3e-16.
+    JOURDAIN_CHECK_ORDERS(rocking_four_bar_all, 0.16L, order < 5 ? 200 : 100)}
 
 TEST(Steppers, OfMechanismsWithMultipliersGiveTheBitsOfDoubleInPacks) {
   const auto ends = [](auto real) {
