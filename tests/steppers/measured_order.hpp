@@ -22,8 +22,8 @@ inline long double distance(const std::vector<long double>& a, const std::vector
   return std::sqrt(sum);
 }
 
-/// Orders from the differences of four resolutions, from `fewest` steps on, extrapolated to steps of length zero. In long
-/// double, so that rounding hardly reaches the fifth-order method.
+/// Orders from the differences of four resolutions, from `fewest` steps on, extrapolated to steps of length zero. In
+/// long double, so that rounding hardly reaches the fifth-order method.
 template <class State, class Input, class Step, class History>
 double measured_order(const State& state, const Input& input, long double duration, Step step,
                       const History& history, int fewest = 200) {
