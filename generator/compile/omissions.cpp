@@ -53,7 +53,7 @@ ir::Module forward_module(const dynamics::Equations& equations, const programs::
 
 /// Without dear passes, on both sides of a comparison.
 std::size_t optimised_operations(const ir::Module& module, const CompileOptions& options) {
-  std::vector<std::string> passes_off = passes::dear_pass_names();
+  std::vector<std::string> passes_off = passes::uncompared_pass_names();
   passes_off.insert(passes_off.end(), options.passes_off.begin(), options.passes_off.end());
   return forward_operations(passes::optimise(module, passes_off).module);
 }

@@ -14,8 +14,8 @@ struct LeastGain {
 };
 
 /// The same values, but where `limbs` are alike in one order and with one sign, next to each other and named in
-/// `lanes`: terms of sums are added in another order, so that rounding differs, and the sign of zero. As many
-/// operations, and more negations. The program itself where less than `least` would be saved.
+/// `lanes`: terms of sums are added in another order, so that rounding differs, and the sign of zero. No more
+/// operations, but more negations. The program itself where less than `least` would be saved.
 ir::Program in_lanes(const ir::Program& program, const std::vector<LikeLimbs>& limbs,
                      const LeastGain& least = {});
 

@@ -49,7 +49,7 @@ std::vector<std::string> pass_names() {
   return names;
 }
 
-std::vector<std::string> dear_pass_names() {
+std::vector<std::string> uncompared_pass_names() {
   std::vector<std::string> names;
   for (const Pass& pass : pipeline())
     if (pass.is_dear || pass.is_last) names.emplace_back(pass.name);

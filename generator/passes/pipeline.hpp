@@ -30,7 +30,7 @@ const std::vector<Pass>& pipeline();
 
 std::vector<std::string> pass_names();
 /// Of those that are left out where two ways are compared.
-std::vector<std::string> dear_pass_names();
+std::vector<std::string> uncompared_pass_names();
 
 struct PassRecord {
   std::string name;

@@ -23,9 +23,8 @@ ScaledReal component(const Point& point, const std::string& array, int column) {
   if (array == "B" || array == "D" || array == "r_u") return d.input[i];
   if (array == "A" || array == "C") return i < n ? d.displacement[i] : d.velocity[i - n];
   if (array != "r_y" && array != "zdot_y") return d.velocity[i];
-  return d
-      .displacement[i < d.velocity.size() ? i
-                                          : i - point.states];  // a column for each velocity, then carried
+  const bool is_carried = i >= d.velocity.size();  // behind a column for each velocity, those of states too
+  return d.displacement[is_carried ? i - point.states : i];
 }
 
 class Contraction {

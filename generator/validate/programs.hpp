@@ -26,7 +26,7 @@ struct Point {
   ir::LeafValues<double> rounded;  ///< the nearest doubles
   dynamics::ExactDirection direction;
   std::size_t output_numbers = 0;
-  std::size_t states = 0;  ///< velocities that displace nothing
+  std::size_t states = 0;  ///< velocities that displace nothing; asked for where others are carried along
 };
 
 /// A part of what a program computes: all its numbers, or Jacobians times the direction, row by row.

@@ -77,14 +77,15 @@ class EqualityReader {
 
   /// A weld without torque is a connect.
   void read_ends(const XmlElement& e, bool is_weld) {
-    const bool weld = is_weld && file_.number(e, "torquescale", 1) != 0;
+    const bool holds_direction = is_weld && file_.number(e, "torquescale", 1) != 0;
     const SourceRange where = xml().element(e);
     if (e.Attribute("site1") || e.Attribute("site2")) {
       if (!xml().required(e, "site1") || !xml().required(e, "site2")) return;
       const FrameIndex* from = find_named(file_, e, "site1", "site", bodies_.sites);
       const FrameIndex* to = find_named(file_, e, "site2", "site", bodies_.sites);
       if (from && to)
-        add_loops(e, {*from, *to}, weld, fmt::format("{}_{}", e.Attribute("site1"), e.Attribute("site2")));
+        add_loops(e, {*from, *to}, holds_direction,
+                  fmt::format("{}_{}", e.Attribute("site1"), e.Attribute("site2")));
       return;
     }
     if (!xml().required(e, "body1") || (!is_weld && !xml().required(e, "anchor"))) {
@@ -101,10 +102,11 @@ class EqualityReader {
                   add_frame(name + "_to", *second, on_second, where)};
     };
     if (!is_weld)
-      return add_loops(e, both({anchor, kIdentity3}, {point_at(inverse(drawn), anchor), kIdentity3}), weld,
-                       name);
+      return add_loops(e, both({anchor, kIdentity3}, {point_at(inverse(drawn), anchor), kIdentity3}),
+                       holds_direction, name);
     const Pose at_anchor{anchor, kIdentity3};
-    add_loops(e, both(relative_pose(e).value_or(composed(drawn, at_anchor)), at_anchor), weld, name);
+    add_loops(e, both(relative_pose(e).value_or(composed(drawn, at_anchor)), at_anchor), holds_direction,
+              name);
   }
 
   /// Where a weld holds the second body's anchor in the first, and how that body is turned. None where relpose has no
@@ -116,15 +118,15 @@ class EqualityReader {
     return Pose{{given[0], given[1], given[2]}, *R};
   }
 
-  void add_loops(const XmlElement& e, const Ends& ends, bool weld, const std::string& otherwise) {
+  void add_loops(const XmlElement& e, const Ends& ends, bool holds_direction, const std::string& otherwise) {
     Loop loop;
     loop.name = new_name(e, otherwise);
-    loop.type = weld ? LoopType::kPrismatic : LoopType::kBall;
+    loop.type = holds_direction ? LoopType::kPrismatic : LoopType::kBall;
     loop.from = ends.from;
     loop.to = ends.to;
     loop.where = xml().element(e);
     bodies_.mechanism.loops.push_back(loop);
-    if (!weld) return;
+    if (!holds_direction) return;
     // A slide that is stopped: five rows and the sixth.
     loop.name = unused(loop.name + "_stop");
     loop.type = LoopType::kPointInPlane;
