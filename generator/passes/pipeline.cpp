@@ -97,20 +97,20 @@ Optimised optimise(Module module, const std::vector<std::string>& switched_off, 
     return std::find(switched_off.begin(), switched_off.end(), pass.name) == switched_off.end();
   };
   int round = 0;
-  const auto apply = [&](const Pass& pass) {
-    result.records.push_back(run(pass, module));
+  const auto apply = [&](const Pass& pass, Module& to) {
+    result.records.push_back(run(pass, to));
     result.records.back().round = round;
-    if (watch) watch(result.records.back(), module);
+    if (watch) watch(result.records.back(), to);
   };
   while (++round <= kMostRounds) {
     const Module before = module;
     for (const Pass& pass : pipeline())
       if (is_on(pass) && !pass.is_last && (!pass.is_dear || arithmetic(module) == arithmetic(before)))
-        apply(pass);
+        apply(pass, module);
     if (same_operations(module, before)) break;
   }
   for (const Pass& pass : pipeline())
-    if (is_on(pass) && pass.is_last) apply(pass);
+    if (is_on(pass) && pass.is_last) apply(pass, module);
   result.module = std::move(module);
   return result;
 }
