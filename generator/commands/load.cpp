@@ -220,13 +220,28 @@ int refuse(const LoadedMechanism& loaded, const validate::Verdict& verdict) {
     return kModelWrong;
   }
   const std::size_t more = verdict.failures.size() - 1;
+  const std::string failure =
+      verdict.failures.front() + (more == 0 ? "" : fmt::format(" (and {} more)", more));
+  if (verdict.kinks.stuck > 0) {
+    const support::SourceRange& where = loaded.mechanism.where;
+    fmt::print(
+        stderr,
+        "{}:{}:{}: error: refused to emit: {}\n"
+        "  What decides abs, min, max, floor or `if` is within rounding of zero at all states that were "
+        "drawn, "
+        "{} time{}: a depth, a gap or a sine that is zero but for the last digits. Rounding chooses the side "
+        "there; give it a size, or leave it out.\n",
+        loaded.options.path, where.line, where.column, failure, verdict.kinks.stuck,
+        verdict.kinks.stuck == 1 ? "" : "s");
+    return kModelWrong;
+  }
   fmt::print(stderr,
-             "error: refused to emit: {}{}\n"
+             "error: refused to emit: {}\n"
              "  The fault is the compiler's, not the description's; --no-snap, fewer --functions or another "
              "treatment of loops may "
              "avoid it.\n"
              "  Please report it with the description, the options and jourdain --version.\n",
-             verdict.failures.front(), more == 0 ? "" : fmt::format(" (and {} more)", more));
+             failure);
   return kInternal;
 }
 

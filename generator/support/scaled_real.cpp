@@ -107,6 +107,8 @@ ScaledReal operator*(const ScaledReal& a, const ScaledReal& b) {
   if (a.is_nothing() && std::isfinite(b.scale_)) return a;
   if (b.is_nothing() && std::isfinite(a.scale_)) return b;
   const long double by_a = a.scale_ * size_of(b.value_), by_b = b.scale_ * size_of(a.value_);
+  if (a.is_number() && b.is_number() && (std::isnan(by_a) || std::isnan(by_b)))
+    return {a.value_ * b.value_, INFINITY};  // what has no bounded effect, times zero
   return {a.value_ * b.value_, std::isnan(by_a) ? by_a : std::max(by_b, by_a)};
 }
 

@@ -29,16 +29,16 @@ bool is_below_doubles(const ScaledReal& number) {
   return static_cast<long double>(abs(number)) < std::numeric_limits<double>::min();
 }
 
-/// |a − b| over the larger scale; 0 where both are no numbers or below doubles, infinite where one is none or nothing
-/// bounds the rounding.
-/// Over the larger number, which is less, where these leave the range of double.
+/// |a − b| over the larger scale; 0 where both are no numbers or below doubles, infinite where one is none. Over the
+/// larger number, which is less, where these leave the range of double or nothing bounds the rounding: a root of zero.
 double apart(const ScaledReal& a, const ScaledReal& b, long double floor) {
   if (a.is_number() != b.is_number()) return INFINITY;
   if (!a.is_number() || a == b || (is_below_doubles(a) && is_below_doubles(b))) return 0;
   const long double scale = std::max({a.scale(), b.scale(), floor});
   const auto difference = static_cast<long double>(abs(a - b));
-  if (std::isinf(difference)) return static_cast<double>(abs(a - b) / (abs(a) > abs(b) ? abs(a) : abs(b)));
-  return std::isfinite(scale) && scale > 0 ? static_cast<double>(difference / scale) : INFINITY;
+  if (std::isinf(difference) || std::isinf(scale))
+    return static_cast<double>(abs(a - b) / (abs(a) > abs(b) ? abs(a) : abs(b)));
+  return scale > 0 ? static_cast<double>(difference / scale) : INFINITY;
 }
 
 /// Of numbers that are computed together.

@@ -7,6 +7,8 @@
 #include <limits>
 #include <map>
 
+#include "validate/programs.hpp"
+
 namespace jourdain::validate {
 
 using ir::Op;
@@ -70,6 +72,9 @@ std::string in_words(const Kinks& kinks) {
                                  kinks.count, kinks.count == 1 ? "" : "s", kinks.on_both_sides);
   if (std::isfinite(kinks.nearest))
     text += fmt::format(", the nearest {:.0e} of its scale away", kinks.nearest);
+  if (kinks.on > 0)
+    text += fmt::format("; derivatives were not compared at {} state{} on one", kinks.on,
+                        kinks.on == 1 ? "" : "s");
   if (kinks.left_out > 0) text += fmt::format("; {} states too near to one were left out", kinks.left_out);
   return text;
 }
@@ -77,6 +82,7 @@ std::string in_words(const Kinks& kinks) {
 KinkSurvey::KinkSurvey(const ir::Module& module)
     : constants_(module.constants), nearest_(std::numeric_limits<double>::infinity()) {
   for (ir::Program program : module.functions) {
+    has_derivatives_ = has_derivatives_ || is_derivative(program);
     program.outputs.clear();
     const std::size_t count = program.nodes.size();
     const std::vector<bool> whole = whole_values(program);
@@ -99,15 +105,21 @@ KinkSurvey::Look KinkSurvey::look(ir::LeafValues<ScaledReal> leaves) const {
     if (seen_[i].is_stuck) continue;
     const ScaledReal& d = look.distances[i];
     look.is_near = look.is_near || (d != zero && is_near_zero(d));
+    look.is_on = look.is_on || d == zero;
     look.is_new = look.is_new || (d < zero && !seen_[i].below) || (d > zero && !seen_[i].above);
   }
   return look;
 }
 
 void KinkSurvey::disregard_stuck(const std::vector<Look>& looks) {
-  for (std::size_t i = 0; i < seen_.size(); ++i)
+  const ScaledReal zero;
+  for (std::size_t i = 0; i < seen_.size(); ++i) {
     seen_[i].is_stuck = std::all_of(looks.begin(), looks.end(),
                                     [i](const Look& look) { return is_near_zero(look.distances[i]); });
+    seen_[i].is_close = seen_[i].is_stuck && std::any_of(looks.begin(), looks.end(), [&](const Look& look) {
+                          return look.distances[i] != zero;
+                        });
+  }
 }
 
 void KinkSurvey::take(const Look& look) {
@@ -115,6 +127,7 @@ void KinkSurvey::take(const Look& look) {
     ++left_out_;
     return;
   }
+  if (look.is_on && has_derivatives_) ++on_;
   const ScaledReal zero;
   for (std::size_t i = 0; i < seen_.size(); ++i) {
     const ScaledReal& d = look.distances[i];
@@ -139,7 +152,9 @@ Kinks KinkSurvey::kinks() const {
     for (const double d : kink.distances) sizes.push_back(std::fabs(d));
     distinct[sizes] = kink.below && kink.above && !kink.is_stuck;
   }
-  Kinks kinks{distinct.size(), 0, nearest_, left_out_};
+  const auto stuck =
+      std::count_if(seen_.begin(), seen_.end(), [](const Seen& kink) { return kink.is_close; });
+  Kinks kinks{distinct.size(), 0, nearest_, left_out_, static_cast<std::size_t>(stuck), on_};
   for (const auto& [sizes, both] : distinct) kinks.on_both_sides += both ? 1 : 0;
   return kinks;
 }

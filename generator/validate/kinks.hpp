@@ -18,6 +18,8 @@ struct Kinks {
   std::size_t on_both_sides = 0;  ///< of them, at the states compared
   double nearest = 0;             ///< the least distance of all, over its scale, see ScaledReal
   std::size_t left_out = 0;  ///< states so near to a kink that rounding may choose the side: not compared
+  std::size_t stuck = 0;     ///< kinks within rounding of all states, and not on them at all
+  std::size_t on = 0;        ///< states on a kink, where derivatives are those of one side: not compared
 };
 
 /// "3 kinks, 2 of them compared on both sides, …"
@@ -28,6 +30,12 @@ inline constexpr const char* kAllNearKinks =
     "nothing was compared: every state that was drawn is within rounding of a kink of abs, min, max, floor "
     "or if";
 
+/// Why one is refused with derivatives that no state was left for.
+inline constexpr const char* kAllOnKinks =
+    "no derivatives were compared: every state that was drawn lies on a kink of abs, min, max, floor or if, "
+    "or is "
+    "within rounding of one";
+
 class KinkSurvey {
  public:
   explicit KinkSurvey(const ir::Module& module);
@@ -36,6 +44,7 @@ class KinkSurvey {
     std::vector<ScaledReal> distances;  ///< of every kink, positive on one side
     bool is_near = false;               ///< to one, not on it: rounding may choose the side
     bool is_new = false;                ///< some kink was not seen from this side
+    bool is_on = false;                 ///< some kink: derivatives are those of one side
   };
   /// At a state; leaves without constants.
   Look look(ir::LeafValues<ScaledReal> leaves) const;
@@ -51,13 +60,14 @@ class KinkSurvey {
  private:
   struct Seen {
     std::vector<double> distances;  ///< at the states compared
-    bool below = false, above = false, is_stuck = false;
+    bool below = false, above = false, is_stuck = false, is_close = false;
   };
 
   std::vector<ir::Program> programs_;  ///< of each function with kinks their distances
   ir::Program constants_;
   std::vector<Seen> seen_;
-  std::size_t left_out_ = 0;
+  std::size_t left_out_ = 0, on_ = 0;
+  bool has_derivatives_ = false;
   double nearest_;
 };
 

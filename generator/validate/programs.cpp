@@ -68,6 +68,17 @@ FunctionId function_of(const ir::Program& program) {
   return *function;
 }
 
+bool is_derivative(const ir::Program& program) {
+  const std::optional<FunctionId> function = ir::function_named(program.name);
+  return function == FunctionId::kLinearize || function == FunctionId::kResidualDerivatives ||
+         function == FunctionId::kForwardDynamicsDerivatives;
+}
+
+ir::Module without_derivatives(ir::Module module) {
+  std::erase_if(module.functions, is_derivative);
+  return module;
+}
+
 std::vector<Part> parts_of(const ir::Program& program, const std::vector<ScaledReal>& values,
                            const Point& point) {
   const Contraction c(program, values, point);

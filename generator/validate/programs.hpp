@@ -55,6 +55,10 @@ inline std::vector<Expected> expecting(const char* oracle, std::vector<ScaledRea
 /// Which function a program computes. One that is not in the table has no oracle: it throws.
 ir::FunctionId function_of(const ir::Program& program);
 
+/// Whether its numbers are derivatives of those of others, which have two at a kink.
+bool is_derivative(const ir::Program& program);
+ir::Module without_derivatives(ir::Module module);
+
 /// What the parts of a program should be, in the order of `parts_of`. A function without an oracle cannot be
 /// emitted: it throws.
 using Oracle = std::function<std::vector<Expected>(const ir::Program&)>;

@@ -42,10 +42,12 @@ class TreeComparison {
     point_.output_numbers = dynamics::output_entries(equations).size();
   }
 
-  void run() {
+  void run(const KinkSurvey& survey) {
     const TreeOracle oracle(mechanism_, equations_, load_, point_);
     compare_with_reference(mechanism_, equations_, point_.exact, oracle, agreement_);
-    compare_programs(module_, point_, std::cref(oracle), agreement_);
+    const bool is_on_kink = survey.has_kinks() && survey.look(point_.exact).is_on;
+    compare_programs(is_on_kink ? without_derivatives(module_) : module_, point_, std::cref(oracle),
+                     agreement_);
     verdict_.condition =
         std::max(verdict_.condition, static_cast<double>(reference::condition<long double>(terms_.M)));
     if (const ir::Program* forward = ir::find_program(module_, ir::FunctionId::kForwardDynamics))
@@ -130,6 +132,13 @@ std::string condition_text(const Verdict& verdict) {
                                           : "more than can be told";
 }
 
+void judge_kinks(Verdict& verdict) {
+  if (verdict.states == 0)
+    verdict.failures.emplace_back(kAllNearKinks);
+  else if (verdict.kinks.on == verdict.states)
+    verdict.failures.emplace_back(kAllOnKinks);
+}
+
 void conclude(const Agreement& agreement, Verdict& verdict) {
   verdict.compared.insert(verdict.compared.end(), agreement.compared().begin(), agreement.compared().end());
   verdict.failures.insert(verdict.failures.end(), agreement.failures().begin(), agreement.failures().end());
@@ -148,9 +157,9 @@ Verdict validate_translation(const model::Mechanism& mechanism, const dynamics::
       on_both_sides(mechanism, draw_samples(mechanism, verdict.states), survey);
   verdict.states = samples.size();
   for (std::size_t i = samples.size(); i-- > 0;)  // the initial state last, see Agreement::same
-    TreeComparison(mechanism, equations, load, module, samples[i], verdict, agreement).run();
+    TreeComparison(mechanism, equations, load, module, samples[i], verdict, agreement).run(survey);
   verdict.kinks = survey.kinks();
-  if (samples.empty()) verdict.failures.emplace_back(kAllNearKinks);
+  judge_kinks(verdict);
   conclude(agreement, verdict);
   return verdict;
 }

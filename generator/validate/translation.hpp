@@ -32,6 +32,9 @@ struct Verdict {
 /// "4.1e+01", or that it is too large to be told.
 std::string condition_text(const Verdict& verdict);
 
+/// Refuses what no state was left for; `states` and `kinks` are known.
+void judge_kinks(Verdict& verdict);
+
 /// Takes over what was compared.
 void conclude(const Agreement& agreement, Verdict& verdict);
 

@@ -106,6 +106,34 @@ TEST(Python, ModulesDoWhatTheyPromise) {
   EXPECT_THAT(result.output, testing::ContainsRegex("Ran 2[0-9] tests"));
 }
 
+/// A bar of the four-bar becomes a parameter; the crank stays where it is.
+TEST(Python, LoopsCloseAtTheStartAtOtherParameters) {
+  const support::TemporaryFolder folder;
+  std::string model = support::read_file(kSource + "/models/four_bar.toml");
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    const std::size_t at = model.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    model.replace(at, from.size(), to);
+  };
+  replace("[parameters]\n", "[parameters]\nbar = { value = 0.24, range = [0.23, 0.26] }\n");
+  replace("position = [0.24, 0, 0]", "position = [\"bar\", 0, 0]");
+  support::write_file(folder.path() + "/four_bar.toml", model);
+  const ProcessResult made = make(folder.path() + "/four_bar.toml", folder.path());
+  ASSERT_EQ(made.status, 0) << made.output;
+  const ProcessResult result = run_python({"-c", R"py(
+import numpy as np
+import four_bar
+for bar in (0.24, 0.25):
+    model = four_bar.Model(bar=bar)
+    state = model.initial_state(2)
+    assert np.abs(model.constraint_residual(state).g).max() < 1e-14
+    assert state.y[0, 0] == four_bar.Model().initial_state().y[0]
+    model.rk4_step(state, None, 1e-3)
+)py"},
+                                          folder.path());
+  EXPECT_EQ(result.status, 0) << result.output;
+}
+
 TEST(Python, BatchesInVectorsAreThoseOfScalarCode) {
   const ProcessResult result = run_python({kSource + "/tests/python/packs_checks.py"}, modules());
   EXPECT_EQ(result.status, 0) << result.output;

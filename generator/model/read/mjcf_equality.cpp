@@ -162,7 +162,7 @@ class EqualityReader {
     const MjcfBodies::NamedJoint* first = scalar_joint(e, "joint1");
     const MjcfBodies::NamedJoint* second = alone ? nullptr : scalar_joint(e, "joint2");
     if (!first || (!alone && !second)) return;
-    std::vector<double> a = file_.numbers(e, "polycoef", {0, 1, 0, 0, 0}, 5);
+    std::vector<double> a = file_.numbers(e, "polycoef", {0, 1, 0, 0, 0}, 1);
     const std::string name =
         new_name(e, alone ? e.Attribute("joint1")
                           : fmt::format("{}_{}", e.Attribute("joint1"), e.Attribute("joint2")));

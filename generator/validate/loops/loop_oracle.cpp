@@ -347,6 +347,7 @@ template <class Numbers>
 std::vector<ScaledReal> LoopOracle::change(const Numbers& numbers, bool with_inputs_and_time,
                                            const Beside* beside) const {
   const ScaledReal h(cln::expt(cln::cl_RA(2), -84));  // (2^-84)^2 and 2^-256 / 2^-84 are both far below 1e-40
+  constexpr long double kTruncated = 1e-9L;           // 40 (2^-84)^2 / 1e-40
   const auto moved = [&](const ScaledReal& step) {
     const dynamics::ExactDirection& d = point_.direction;
     Point there = point_;
@@ -376,6 +377,10 @@ std::vector<ScaledReal> LoopOracle::change(const Numbers& numbers, bool with_inp
   std::vector<ScaledReal> rates;
   for (std::size_t i = 0; i < above.size(); ++i)
     rates.push_back(((above[i] - below[i]) / (h + h)).forgetting().with_scale(above[i].scale()));
+  long double largest = 0;
+  for (const ScaledReal& rate : rates) largest = std::max(largest, rate.scale());
+  // What changes with the square of the step has next to no scale, and is off by h² like all others.
+  for (ScaledReal& rate : rates) rate = rate.with_scale(kTruncated * largest);
   return rates;
 }
 

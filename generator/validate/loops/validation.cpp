@@ -33,12 +33,6 @@ bool closes(const ir::Program& program) {
   return function == FunctionId::kCloseLoops || function == FunctionId::kProject;
 }
 
-bool is_derivative(const ir::Program& program) {
-  const std::optional<FunctionId> function = ir::function_named(program.name);
-  return function == FunctionId::kLinearize || function == FunctionId::kResidualDerivatives ||
-         function == FunctionId::kForwardDynamicsDerivatives;
-}
-
 /// The functions but those that close loops, or these alone.
 ir::Module part_of(const ir::Module& module, bool closing) {
   ir::Module part;
@@ -118,9 +112,10 @@ class LoopComparison {
         verdict_(verdict) {}
 
   /// Open states are looked at beside some of the closed ones: each takes as long.
-  void compare(const Point& point, bool is_opened) {
+  void compare(const Point& point, bool is_opened, bool is_on_kink) {
     const LoopOracle oracle(scene_, point);
-    compare_programs(functions_, point, std::cref(oracle), agreement_);
+    compare_programs(is_on_kink ? without_derivatives(functions_) : functions_, point, std::cref(oracle),
+                     agreement_);
     measure(point, oracle);
     const std::vector<double> sizes = is_opened ? std::vector{0.0, 1e-6, 1e-3} : std::vector{1e-3};
     for (const double size : sizes) {
@@ -137,9 +132,7 @@ class LoopComparison {
   /// Everything but closing holds where loops are open, too; derivatives of reduced equations are those along
   /// closed states.
   void compare_open(const Point& open) {
-    ir::Module there = functions_;
-    if (scene_.plan.is_reduced())
-      std::erase_if(there.functions, [](const ir::Program& program) { return is_derivative(program); });
+    const ir::Module there = scene_.plan.is_reduced() ? without_derivatives(functions_) : functions_;
     const LoopOracle oracle(scene_, open);
     compare_programs(there, open, std::cref(oracle), agreement_);
   }
@@ -215,11 +208,11 @@ Verdict validate_closed(const model::Mechanism& mechanism, const dynamics::Equat
   for (const Point& point : points) {
     const KinkSurvey::Look look = survey.look(point.exact);
     survey.take(look);
-    if (!look.is_near) comparison.compare(point, std::size_t(&point - points.data()) < kOpened);
+    if (!look.is_near) comparison.compare(point, std::size_t(&point - points.data()) < kOpened, look.is_on);
   }
   verdict.kinks = survey.kinks();
   verdict.states = rays.size() - verdict.kinks.left_out;
-  if (verdict.states == 0) verdict.failures.emplace_back(kAllNearKinks);
+  judge_kinks(verdict);
   conclude(agreement, verdict);
   return verdict;
 }
