@@ -328,6 +328,22 @@ TEST(Compile, AJointThatMovesNoInertiaIsNamed) {
   expect(jourdain({"check", model}), 1, "joint 'idle' moves no inertia");
 }
 
+/// Of a wheel that lies flat the depth is zero, but for the last digits, wherever it goes.
+TEST(Compile, WhatIsNearAKinkWhereverItGoesIsNoFaultOfTheCompiler) {
+  const support::TemporaryFolder folder;
+  const std::string model = folder.path() + "/flat.toml";
+  support::write_file(
+      model,
+      "[model]\nname = \"flat\"\n[[body]]\nname = \"b\"\nmass = 0.5\n[[joint]]\nname = \"j\"\ntype = "
+      "\"prismatic\"\nparent = \"world\"\nchild = \"b\"\nposition = [0, 0.5, 0.3]\naxis = [1, 2, 0]\n"
+      "[[tyre]]\nname = \"ty\"\nframe = \"b\"\nradius = 0.4\npoint = [0, 0, -0.1]\nstiffness = 200\n"
+      "friction = 1\nrelaxation_length = 0.3\nstiffness_factor = [3, 4]\nshape_factor = [1.6, 1.3]\n");
+  const auto result = jourdain({"compile", model, "-o", folder.path() + "/out"});
+  expect(result, 1, "flat.toml:1:1: error: refused to emit: ");
+  expect(result, 1, "is within rounding of zero at all states that were drawn, ");
+  EXPECT_EQ(files_in(folder.path() + "/out"), 0u);
+}
+
 TEST(Check, WhatHasNoFiniteValuesIsPlaced) {
   const support::TemporaryFolder folder;
   const std::string model = folder.path() + "/huge.toml";
