@@ -100,8 +100,8 @@ void mass_matrix(const Model<Real>&, const State<Real>&, Real (&M)[3][3]) noexce
 
 template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[3]) noexcept {
-  const Real kdn0_x = Real(0.039999999999999994) * (state.z[1] * state.z[2]);
   const Real kdn0_y = Real(0.039999999999999994) * (state.z[2] * state.z[0]);
+  const Real kdn0_x = Real(0.039999999999999994) * (state.z[1] * state.z[2]);
   k[0] = kdn0_x;
   k[1] = -kdn0_y;
   k[2] = Real(0.0);

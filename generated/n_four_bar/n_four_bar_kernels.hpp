@@ -279,24 +279,24 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[5][5]) 
 
 template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[5]) noexcept {
-  Real s0, c0, t4, t5, s2, c2, t16, t17;
-  detail::sine_cosine4(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], s2, c2, state.y[3], t16, t17);
-  const Real s1 = c0 * t4 + s0 * t5;
-  const Real c1 = s0 * t4 - c0 * t5;
-  const Real s3 = c2 * t16 + s2 * t17;
-  const Real c3 = s2 * t16 - c2 * t17;
-  const Real h3b_x = c3 * Real(0.5);
-  const Real h3b_y = s3 * Real(0.5);
+  Real s0, c0, t3, t6, s2, c2, t35, t38;
+  detail::sine_cosine4(state.y[0], s0, c0, state.y[1], t3, t6, state.y[2], s2, c2, state.y[3], t35, t38);
+  const Real c1 = s0 * t3 - c0 * t6;
   const Real h1b_x = c1 * Real(0.5);
+  const Real zw_1 = state.z[1] * (state.z[0] + (state.z[0] + state.z[1]));
+  const Real s1 = c0 * t3 + s0 * t6;
   const Real h1b_y = s1 * Real(0.5);
+  const Real kn1c_z = h1b_x * (c0 * zw_1) - h1b_y * (s0 * zw_1);
   const Real kW0w22 = state.z[0] * state.z[0];
   const Real kQp1 = h1b_x * (c0 * kW0w22) - h1b_y * (s0 * kW0w22);
-  const Real zw_1 = state.z[1] * (state.z[0] + (state.z[0] + state.z[1]));
+  const Real c3 = s2 * t35 - c2 * t38;
+  const Real h3b_x = c3 * Real(0.5);
+  const Real zw_3 = state.z[3] * (state.z[2] + (state.z[2] + state.z[3]));
+  const Real s3 = c2 * t35 + s2 * t38;
+  const Real h3b_y = s3 * Real(0.5);
+  const Real kn3c_z = h3b_x * (c2 * zw_3) - h3b_y * (s2 * zw_3);
   const Real kW2w22 = state.z[2] * state.z[2];
   const Real kQp3 = h3b_x * (c2 * kW2w22) - h3b_y * (s2 * kW2w22);
-  const Real zw_3 = state.z[3] * (state.z[2] + (state.z[2] + state.z[3]));
-  const Real kn3c_z = h3b_x * (c2 * zw_3) - h3b_y * (s2 * zw_3);
-  const Real kn1c_z = h1b_x * (c0 * zw_1) - h1b_y * (s0 * zw_1);
   k[0] = kn1c_z;
   k[1] = -kQp1;
   k[2] = kn3c_z;
@@ -500,21 +500,21 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
 
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
-  Real s0, c0, t4, t5, s2, c2, t16, t17;
-  detail::sine_cosine4(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], s2, c2, state.y[3], t16, t17);
-  const Real s1 = c0 * t4 + s0 * t5;
-  const Real c1 = s0 * t4 - c0 * t5;
-  const Real s3 = c2 * t16 + s2 * t17;
-  const Real c3 = s2 * t16 - c2 * t17;
-  const Real J2 = t16 + Real(1.6666666666666667);
-  const Real J0 = t4 + Real(1.6666666666666667);
+  Real s2, c2, t3, t6, t15, t38, s0, c0;
+  detail::sine_cosine4(state.y[2], s2, c2, state.y[3], t3, t6, state.y[1], t15, t38, state.y[0], s0, c0);
+  const Real c3 = s2 * t3 - c2 * t6;
+  const Real t11 = state.z[2] * state.z[3];
+  const Real J0 = t15 + Real(1.6666666666666667);
   const Real v1L_z = state.z[1] * Real(0.3333333333333333);
-  const Real t38 = state.z[0] * state.z[1];
   const Real v3L_z = state.z[3] * Real(0.3333333333333333);
-  const Real t48 = state.z[2] * state.z[3];
-  const Real T4 = (c3 * (s2 * t48) + (J0 * (state.z[0] * state.z[0]) + (Real(0.3333333333333333) * (state.z[4]
-      * state.z[4]) + (state.z[1] * v1L_z + state.z[3] * v3L_z))) + (s1 * (c0 * t38) + J2 * (state.z[2] *
-      state.z[2]) + (c1 * (s0 * t38) + s3 * (c2 * t48)))) * Real(0.5) + (state.z[0] * v1L_z + state.z[2] *
+  const Real c1 = s0 * t15 - c0 * t38;
+  const Real t41 = state.z[0] * state.z[1];
+  const Real s3 = c2 * t3 + s2 * t6;
+  const Real s1 = c0 * t15 + s0 * t38;
+  const Real J2 = t3 + Real(1.6666666666666667);
+  const Real T4 = (c3 * (s2 * t11) + (J0 * (state.z[0] * state.z[0]) + (Real(0.3333333333333333) * (state.z[4]
+      * state.z[4]) + (state.z[1] * v1L_z + state.z[3] * v3L_z))) + (s1 * (c0 * t41) + J2 * (state.z[2] *
+      state.z[2]) + (c1 * (s0 * t41) + s3 * (c2 * t11)))) * Real(0.5) + (state.z[0] * v1L_z + state.z[2] *
       v3L_z);
   return T4;
 }

@@ -137,15 +137,15 @@ void mass_matrix(const Model<Real>&, const State<Real>&, Real (&M)[6][6]) noexce
 
 template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept {
-  const Real kSu0_x = state.z[3] * Real(1.4672772e-05) - (state.z[5] * Real(7.18277e-07) + state.z[4] *
-      Real(8.30806e-07));
   const Real kSu0_y = state.z[4] * Real(1.458888e-05) - (Real(8.30806e-07) * state.z[3] + state.z[5] *
       Real(1.800197e-06));
+  const Real kSu0_x = state.z[3] * Real(1.4672772e-05) - (state.z[5] * Real(7.18277e-07) + state.z[4] *
+      Real(8.30806e-07));
+  const Real kdn0_z = state.z[3] * kSu0_y - state.z[4] * kSu0_x;
   const Real kSu0_z = state.z[4] * Real(1.800197e-06) - (state.z[5] * Real(1.9828299999999994e-06) -
       Real(7.18277e-07) * state.z[3]);
-  const Real kdn0_x = state.z[4] * kSu0_z + state.z[5] * kSu0_y;
   const Real kdn0_y = state.z[3] * kSu0_z + state.z[5] * kSu0_x;
-  const Real kdn0_z = state.z[3] * kSu0_y - state.z[4] * kSu0_x;
+  const Real kdn0_x = state.z[4] * kSu0_z + state.z[5] * kSu0_y;
   k[0] = Real(0.0);
   k[1] = Real(0.0);
   k[2] = Real(0.0);

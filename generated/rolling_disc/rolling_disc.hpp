@@ -70,7 +70,8 @@ template <class Real = double>
 struct State {
   Real y[7];
   Real z[6];
-  /// Of what the last closing of the loops solved for: 1 at its best, 0 where it is singular, negative beyond.
+  /// Of what the last closing of the loops solved for: 1 at its best, 0 where it is singular, negative
+  /// beyond.
   /// Below Model::least_regularity, or not a number, do not trust what follows.
   Real regularity = Real(1.0);
   /// Square of the distance that the last closing moved the positions, rad or m. Beyond

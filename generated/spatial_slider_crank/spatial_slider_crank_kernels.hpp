@@ -343,46 +343,46 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[1][1]) 
 
 template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[1]) noexcept {
-  Real s2, c2, s3, c3;
-  detail::sine_cosine2(state.y[2], s2, c2, state.y[3], s3, c3);
+  Real s3, c3, s2, c2;
+  detail::sine_cosine2(state.y[3], s3, c3, state.y[2], s2, c2);
+  const Real ballbx_y = Real(0.3) * s3;
+  const Real t6 = ballbx_y * s2;
   const Real ballbx_x = c3 * Real(0.3);
-  const Real ballbx3_y = c2 * ballbx_x;
+  const Real t10 = Real(1.0) / ballbx_x;
   Real s0, c0;
   detail::sine_cosine(state.y[0], s0, c0);
+  const Real t15 = t10 * (Real(0.08) * c0);
   const Real ballax_x = s0 * Real(0.08);
-  const Real ballbx_y = Real(0.3) * s3;
+  const Real ballbx3_y = c2 * ballbx_x;
+  const Real t22 = Real(1.0) / ballbx3_y;
+  const Real t23 = t22 * (ballax_x - t6 * t15);
+  const Real t25 = t23 * state.z[0];
   const Real ballbx3_x = ballbx_x * s2;
-  const Real t16 = c2 * ballbx_y;
-  const Real t17 = ballbx_y * s2;
-  const Real t19 = Real(1.0) / ballbx_x;
-  const Real t20 = Real(1.0) / ballbx3_y;
-  const Real t22 = t19 * (Real(0.08) * c0);
-  const Real t25 = t20 * (ballax_x - t17 * t22);
-  const Real t30 = t25 * state.z[0];
-  const Real t31 = t22 * state.z[0];
-  const Real ballbm3t_x = ballbx_y * t31;
-  const Real ballbm2t_y = ballbx3_x * t30;
-  const Real ballbm3t_y = ballbx_x * t31;
-  const Real ballbm3a_x = t31 * ballbm3t_y;
-  const Real ballbm3ap_y = c2 * ballbm3a_x;
-  const Real ballbm2t_x = ballbx3_y * t30;
-  const Real ballbm2b_x = ballbm2t_x + ballbm3t_x * (s2 * Real(2.0));
-  const Real ballam0a_x = ballax_x * (state.z[0] * state.z[0]);
-  const Real ballbm3a_y = t31 * ballbm3t_x;
-  const Real ballda_y = ballam0a_x - ballbm3a_y;
-  const Real ballam0a_y = state.z[0] * ballbm3t_y;
-  const Real ballbm3ap_x = s2 * ballbm3a_x;
+  const Real ballbm2t_y = ballbx3_x * t25;
+  const Real t28 = t15 * state.z[0];
+  const Real ballbm3t_x = ballbx_y * t28;
   const Real ballbm2b_y = ballbm2t_y - ballbm3t_x * (c2 * Real(2.0));
-  const Real t53 = t19 * ballda_y;
-  const Real t58 = t20 * (t30 * ballbm2b_y - (t17 * t53 + (ballam0a_y - ballbm3ap_x)));
-  const Real t63 = ballbx3_x * t58 + (t30 * ballbm2b_x + (ballbm3ap_y - t16 * t53));
+  const Real ballbm3a_y = t28 * ballbm3t_x;
+  const Real ballam0a_x = ballax_x * (state.z[0] * state.z[0]);
+  const Real ballda_y = ballam0a_x - ballbm3a_y;
+  const Real t39 = t10 * ballda_y;
+  const Real ballbm3t_y = ballbx_x * t28;
+  const Real ballbm3a_x = t28 * ballbm3t_y;
+  const Real ballbm3ap_x = s2 * ballbm3a_x;
+  const Real ballam0a_y = state.z[0] * ballbm3t_y;
+  const Real t48 = t22 * (t25 * ballbm2b_y - (t6 * t39 + (ballam0a_y - ballbm3ap_x)));
+  const Real ballbm2t_x = ballbx3_y * t25;
+  const Real ballbm2b_x = ballbm2t_x + ballbm3t_x * (s2 * Real(2.0));
+  const Real ballbm3ap_y = c2 * ballbm3a_x;
+  const Real t56 = c2 * ballbx_y;
+  const Real t60 = ballbx3_x * t48 + (t25 * ballbm2b_x + (ballbm3ap_y - t56 * t39));
   const Real S3b_t = s3 * Real(0.014849999999999999);
-  const Real kKx3 = t30 * (c3 * S3b_t);
-  const Real kQp3 = t30 * kKx3;
-  const Real kdn3_y = kKx3 * (t31 * Real(2.0));
   const Real S2b_zz = s3 * S3b_t - Real(0.01525);
-  k[0] = t22 * (t63 * (t16 * Real(0.25)) - (kQp3 - t53 * Real(0.01525))) + (t63 * ((ballbx3_x * t25 - t16 *
-      t22) * Real(2.25)) - t25 * (t63 * (ballbx3_x * Real(0.25)) - (kdn3_y - t58 * S2b_zz)));
+  const Real kKx3 = t25 * (c3 * S3b_t);
+  const Real kdn3_y = kKx3 * (t28 * Real(2.0));
+  const Real kQp3 = t25 * kKx3;
+  k[0] = t15 * (t60 * (t56 * Real(0.25)) - (kQp3 - t39 * Real(0.01525))) + (t60 * ((ballbx3_x * t23 - t56 *
+      t15) * Real(2.25)) - t23 * (t60 * (ballbx3_x * Real(0.25)) - (kdn3_y - t48 * S2b_zz)));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -394,104 +394,104 @@ void q_bar(const Model<Real>&, const State<Real>& state, const Input<Real>&, Rea
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<Real>&, Real (&zdot)[1])
     noexcept {
-  Real s2, c2, s3, c3;
-  detail::sine_cosine2(state.y[2], s2, c2, state.y[3], s3, c3);
+  Real s3, c3, s2, c2;
+  detail::sine_cosine2(state.y[3], s3, c3, state.y[2], s2, c2);
+  const Real ballbx_y = Real(0.3) * s3;
+  const Real t6 = ballbx_y * s2;
   const Real ballbx_x = c3 * Real(0.3);
-  const Real ballbx3_y = c2 * ballbx_x;
+  const Real t10 = Real(1.0) / ballbx_x;
   Real s0, c0;
   detail::sine_cosine(state.y[0], s0, c0);
+  const Real t15 = t10 * (Real(0.08) * c0);
   const Real ballax_x = s0 * Real(0.08);
-  const Real ballbx_y = Real(0.3) * s3;
+  const Real ballbx3_y = c2 * ballbx_x;
+  const Real t22 = Real(1.0) / ballbx3_y;
+  const Real t23 = t22 * (ballax_x - t6 * t15);
+  const Real t25 = t23 * state.z[0];
   const Real ballbx3_x = ballbx_x * s2;
-  const Real t16 = c2 * ballbx_y;
-  const Real t17 = ballbx_y * s2;
-  const Real t19 = Real(1.0) / ballbx_x;
-  const Real t20 = Real(1.0) / ballbx3_y;
-  const Real t22 = t19 * (Real(0.08) * c0);
-  const Real t25 = t20 * (ballax_x - t17 * t22);
-  const Real t28 = ballbx3_x * t25 - t16 * t22;
-  const Real t30 = t25 * state.z[0];
-  const Real t31 = t22 * state.z[0];
-  const Real ballbm3t_x = ballbx_y * t31;
-  const Real ballbm2t_y = ballbx3_x * t30;
-  const Real ballbm3t_y = ballbx_x * t31;
-  const Real ballbm3a_x = t31 * ballbm3t_y;
-  const Real ballbm3ap_y = c2 * ballbm3a_x;
-  const Real ballbm2t_x = ballbx3_y * t30;
-  const Real ballbm2b_x = ballbm2t_x + ballbm3t_x * (s2 * Real(2.0));
-  const Real ballam0a_x = ballax_x * (state.z[0] * state.z[0]);
-  const Real ballbm3a_y = t31 * ballbm3t_x;
-  const Real ballda_y = ballam0a_x - ballbm3a_y;
-  const Real ballam0a_y = state.z[0] * ballbm3t_y;
-  const Real ballbm3ap_x = s2 * ballbm3a_x;
+  const Real ballbm2t_y = ballbx3_x * t25;
+  const Real t28 = t15 * state.z[0];
+  const Real ballbm3t_x = ballbx_y * t28;
   const Real ballbm2b_y = ballbm2t_y - ballbm3t_x * (c2 * Real(2.0));
-  const Real t53 = t19 * ballda_y;
-  const Real t58 = t20 * (t30 * ballbm2b_y - (t17 * t53 + (ballam0a_y - ballbm3ap_x)));
-  const Real t63 = ballbx3_x * t58 + (t30 * ballbm2b_x + (ballbm3ap_y - t16 * t53));
-  const Real S3b_t = s3 * Real(0.014849999999999999);
-  const Real h3b_y = s3 * Real(0.075);
-  const Real S2b_zz = s3 * S3b_t - Real(0.01525);
+  const Real ballbm3a_y = t28 * ballbm3t_x;
+  const Real ballam0a_x = ballax_x * (state.z[0] * state.z[0]);
+  const Real ballda_y = ballam0a_x - ballbm3a_y;
+  const Real t39 = t10 * ballda_y;
+  const Real ballbm3t_y = ballbx_x * t28;
+  const Real ballbm3a_x = t28 * ballbm3t_y;
+  const Real ballbm3ap_x = s2 * ballbm3a_x;
+  const Real ballam0a_y = state.z[0] * ballbm3t_y;
+  const Real t48 = t22 * (t25 * ballbm2b_y - (t6 * t39 + (ballam0a_y - ballbm3ap_x)));
+  const Real ballbm2t_x = ballbx3_y * t25;
+  const Real ballbm2b_x = ballbm2t_x + ballbm3t_x * (s2 * Real(2.0));
+  const Real ballbm3ap_y = c2 * ballbm3a_x;
+  const Real t56 = c2 * ballbx_y;
+  const Real t60 = ballbx3_x * t48 + (t25 * ballbm2b_x + (ballbm3ap_y - t56 * t39));
+  const Real t63 = ballbx3_x * t23 - t56 * t15;
   const Real h2b_x = ballbx3_x * Real(0.25);
-  const Real T3 = (t28 * (t28 * Real(2.5)) - (t25 * (t25 * S2b_zz) - t22 * (t22 * Real(0.01525)))) * Real(0.5)
-      + (t28 * (t22 * (c2 * h3b_y)) - (t28 * (t25 * h2b_x) - Real(5e-05)));
-  const Real rdn2_z = t58 * S2b_zz;
-  const Real rL2a_y = s2 * Real(9.81) + c2 * t63;
-  const Real rKx3 = t30 * (c3 * S3b_t);
-  const Real rdn3_y = rKx3 * (t31 * Real(2.0));
-  const Real rdn3_z = t53 * Real(0.01525);
-  const Real rQ2_0 = t63 * h2b_x + (rdn2_z - (ballbx3_y * Real(2.4525) + rdn3_y));
-  const Real rQ3_0 = h3b_y * rL2a_y - (t30 * rKx3 - rdn3_z);
-  zdot[0] = (t22 * rQ3_0 + (t63 * (t28 * Real(2.25)) - t25 * rQ2_0)) / (Real(2.0) * T3);
+  const Real S3b_t = s3 * Real(0.014849999999999999);
+  const Real S2b_zz = s3 * S3b_t - Real(0.01525);
+  const Real rdn2_z = t48 * S2b_zz;
+  const Real rKx3 = t25 * (c3 * S3b_t);
+  const Real rdn3_y = rKx3 * (t28 * Real(2.0));
+  const Real rQ2_0 = t60 * h2b_x + (rdn2_z - (ballbx3_y * Real(2.4525) + rdn3_y));
+  const Real rL2a_y = s2 * Real(9.81) + c2 * t60;
+  const Real h3b_y = s3 * Real(0.075);
+  const Real rdn3_z = t39 * Real(0.01525);
+  const Real rQ3_0 = h3b_y * rL2a_y - (t25 * rKx3 - rdn3_z);
+  const Real T3 = (t63 * (t63 * Real(2.5)) - (t23 * (t23 * S2b_zz) - t15 * (t15 * Real(0.01525)))) * Real(0.5)
+      + (t63 * (t15 * (c2 * h3b_y)) - (t63 * (t23 * h2b_x) - Real(5e-05)));
+  zdot[0] = (t15 * rQ3_0 + (t60 * (t63 * Real(2.25)) - t23 * rQ2_0)) / (Real(2.0) * T3);
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (&zdot)[1], Real (&tau)[1])
     noexcept {
-  Real s2, c2, s3, c3;
-  detail::sine_cosine2(state.y[2], s2, c2, state.y[3], s3, c3);
+  Real s3, c3, s2, c2;
+  detail::sine_cosine2(state.y[3], s3, c3, state.y[2], s2, c2);
+  const Real ballbx_y = Real(0.3) * s3;
+  const Real t6 = ballbx_y * s2;
   const Real ballbx_x = c3 * Real(0.3);
-  const Real ballbx3_y = c2 * ballbx_x;
+  const Real t10 = Real(1.0) / ballbx_x;
   Real s0, c0;
   detail::sine_cosine(state.y[0], s0, c0);
+  const Real t15 = t10 * (Real(0.08) * c0);
   const Real ballax_x = s0 * Real(0.08);
-  const Real ballbx_y = Real(0.3) * s3;
+  const Real ballbx3_y = c2 * ballbx_x;
+  const Real t22 = Real(1.0) / ballbx3_y;
+  const Real t23 = t22 * (ballax_x - t6 * t15);
+  const Real t25 = t23 * state.z[0];
   const Real ballbx3_x = ballbx_x * s2;
-  const Real t16 = c2 * ballbx_y;
-  const Real t17 = ballbx_y * s2;
-  const Real t19 = Real(1.0) / ballbx_x;
-  const Real t20 = Real(1.0) / ballbx3_y;
-  const Real t22 = t19 * (Real(0.08) * c0);
-  const Real t25 = t20 * (ballax_x - t17 * t22);
-  const Real t28 = ballbx3_x * t25 - t16 * t22;
-  const Real t30 = t25 * state.z[0];
-  const Real t31 = t22 * state.z[0];
-  const Real ballbm3t_x = ballbx_y * t31;
-  const Real ballbm2t_y = ballbx3_x * t30;
-  const Real ballbm3t_y = ballbx_x * t31;
-  const Real ballbm3a_x = t31 * ballbm3t_y;
-  const Real ballbm3ap_y = c2 * ballbm3a_x;
-  const Real ballbm2t_x = ballbx3_y * t30;
-  const Real ballbm2b_x = ballbm2t_x + ballbm3t_x * (s2 * Real(2.0));
-  const Real ballam0a_x = ballax_x * (state.z[0] * state.z[0]);
-  const Real ballbm3a_y = t31 * ballbm3t_x;
-  const Real ballda_y = ballam0a_x - ballbm3a_y;
-  const Real ballam0a_y = state.z[0] * ballbm3t_y;
-  const Real ballbm3ap_x = s2 * ballbm3a_x;
+  const Real ballbm2t_y = ballbx3_x * t25;
+  const Real t28 = t15 * state.z[0];
+  const Real ballbm3t_x = ballbx_y * t28;
   const Real ballbm2b_y = ballbm2t_y - ballbm3t_x * (c2 * Real(2.0));
-  const Real t53 = t19 * ballda_y;
-  const Real t58 = t20 * (t30 * ballbm2b_y - (t17 * t53 + (ballam0a_y - ballbm3ap_x)));
-  const Real t66 = ballbx3_x * t58 + (ballbm3ap_y - t16 * t53 + (t30 * ballbm2b_x - t28 * zdot[0]));
+  const Real ballbm3a_y = t28 * ballbm3t_x;
+  const Real ballam0a_x = ballax_x * (state.z[0] * state.z[0]);
+  const Real ballda_y = ballam0a_x - ballbm3a_y;
+  const Real t39 = t10 * ballda_y;
+  const Real ballbm3t_y = ballbx_x * t28;
+  const Real ballbm3a_x = t28 * ballbm3t_y;
+  const Real ballbm3ap_x = s2 * ballbm3a_x;
+  const Real ballam0a_y = state.z[0] * ballbm3t_y;
+  const Real t48 = t22 * (t25 * ballbm2b_y - (t6 * t39 + (ballam0a_y - ballbm3ap_x)));
+  const Real ballbm2t_x = ballbx3_y * t25;
+  const Real ballbm2b_x = ballbm2t_x + ballbm3t_x * (s2 * Real(2.0));
+  const Real t56 = c2 * ballbx_y;
+  const Real t58 = ballbx3_x * t23 - t56 * t15;
+  const Real ballbm3ap_y = c2 * ballbm3a_x;
+  const Real t66 = ballbx3_x * t48 + (ballbm3ap_y - t56 * t39 + (t25 * ballbm2b_x - t58 * zdot[0]));
   const Real S3b_t = s3 * Real(0.014849999999999999);
   const Real S2b_zz = s3 * S3b_t - Real(0.01525);
-  const Real adn0_z = zdot[0] * Real(0.0001);
-  const Real adn2_z = (t58 - t25 * zdot[0]) * S2b_zz;
-  const Real aL2a_y = s2 * Real(9.81) + c2 * t66;
-  const Real aKx3 = t30 * (c3 * S3b_t);
-  const Real adn3_y = aKx3 * (t31 * Real(2.0));
-  const Real adn3_z = (t53 - t22 * zdot[0]) * Real(0.01525);
+  const Real adn2_z = (t48 - t23 * zdot[0]) * S2b_zz;
+  const Real aKx3 = t25 * (c3 * S3b_t);
+  const Real adn3_y = aKx3 * (t28 * Real(2.0));
   const Real aQ2_0 = t66 * (ballbx3_x * Real(0.25)) + (adn2_z - (ballbx3_y * Real(2.4525) + adn3_y));
-  const Real aQ3_0 = aL2a_y * (s3 * Real(0.075)) - (t30 * aKx3 - adn3_z);
-  tau[0] = -(t22 * aQ3_0 - (t25 * aQ2_0 + (adn0_z - t66 * (t28 * Real(2.25)))));
+  const Real adn0_z = zdot[0] * Real(0.0001);
+  const Real aL2a_y = s2 * Real(9.81) + c2 * t66;
+  const Real adn3_z = (t39 - t15 * zdot[0]) * Real(0.01525);
+  const Real aQ3_0 = aL2a_y * (s3 * Real(0.075)) - (t25 * aKx3 - adn3_z);
+  tau[0] = -(t15 * aQ3_0 - (t23 * aQ2_0 + (adn0_z - t66 * (t58 * Real(2.25)))));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -527,18 +527,18 @@ Real potential_energy(const Model<Real>&, const State<Real>& state) noexcept {
 template <class Real> JOURDAIN_FUNCTION
 void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, Outputs<Real>& result) noexcept
     {
-  Real s2, c2, s3, c3;
-  detail::sine_cosine2(state.y[2], s2, c2, state.y[3], s3, c3);
-  const Real ballbx_x = c3 * Real(0.3);
-  const Real ballbx3_y = c2 * ballbx_x;
-  Real s0, c0;
-  detail::sine_cosine(state.y[0], s0, c0);
-  const Real ballax_x = s0 * Real(0.08);
-  const Real ballax0_y = ballax_x - Real(0.1);
-  const Real ballbx_y = Real(0.3) * s3;
+  Real s0, c0, s3, c3;
+  detail::sine_cosine2(state.y[0], s0, c0, state.y[3], s3, c3);
   const Real ballax_y = Real(0.08) * c0;
+  const Real ballbx_x = c3 * Real(0.3);
+  const Real t8 = ballax_y / ballbx_x;
+  const Real ballbx_y = Real(0.3) * s3;
+  Real s2, c2;
+  detail::sine_cosine(state.y[2], s2, c2);
+  const Real ballax_x = s0 * Real(0.08);
+  const Real ballbx3_y = c2 * ballbx_x;
   const Real ballax0_z = ballax_y + Real(0.12);
-  const Real t20 = ballax_y / ballbx_x;
+  const Real ballax0_y = ballax_x - Real(0.1);
   result.pin_position.position[0] = Real(0.0);
   result.pin_position.position[1] = -ballax0_y;
   result.pin_position.position[2] = ballax0_z;
@@ -551,7 +551,7 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
   result.pin_position.rotation[2][0] = Real(0.0);
   result.pin_position.rotation[2][1] = s0;
   result.pin_position.rotation[2][2] = c0;
-  result.slider_speed = ((ballax_x - t20 * (ballbx_y * s2)) / ballbx3_y * (ballbx_x * s2) - t20 * (c2 *
+  result.slider_speed = ((ballax_x - t8 * (ballbx_y * s2)) / ballbx3_y * (ballbx_x * s2) - t8 * (c2 *
       ballbx_y)) * state.z[0];
 }
 

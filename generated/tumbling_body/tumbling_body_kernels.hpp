@@ -148,9 +148,9 @@ void q_bar(const Model<Real>&, const State<Real>&, const Input<Real>&, Real (&q)
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<Real>&, Real (&zdot)[6])
     noexcept {
-  const Real bww00 = state.z[4] * state.z[5];
-  const Real bww01 = state.z[5] * state.z[3];
   const Real acc0u = Real(0.3333333333333333) * (state.z[4] * state.z[3]);
+  const Real bww01 = state.z[5] * state.z[3];
+  const Real bww00 = state.z[4] * state.z[5];
   zdot[0] = Real(0.0);
   zdot[1] = Real(0.0);
   zdot[2] = Real(0.0);

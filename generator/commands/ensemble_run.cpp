@@ -123,7 +123,8 @@ EnsembleProgram::EnsembleProgram(const RunModel& model, const CompiledModel& com
   }
   sha256_ = sha256_of(all);
   std::vector<std::string> command = machine_compiler();
-  for (const char* word : {"-std=c++17", "-O2", "-march=native", "-ffp-contract=off", "-pthread", "-w", "-o"})
+  for (const char* word :
+       {"-std=c++17", "-O2", "-march=native", "-ffp-contract=off", "-fno-math-errno", "-pthread", "-w", "-o"})
     command.emplace_back(word);
   command.push_back(folder_.path() + "/ensemble");
   command.push_back(folder_.path() + "/main.cpp");

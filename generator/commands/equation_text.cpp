@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
+#include <map>
+#include <vector>
+
 #include "compile/compile.hpp"
 #include "dynamics/harmonics.hpp"
 #include "emit/unique_names.hpp"
@@ -9,6 +13,7 @@
 #include "model/coordinates.hpp"
 #include "model/joint_kinds.hpp"
 #include "programs/tree_functions.hpp"
+#include "support/constant_array.hpp"
 
 namespace jourdain::commands {
 
@@ -31,10 +36,22 @@ class EquationPrinter {
       const bool named = operation && (uses_[i] > 1 || !program.labels[i].empty());
       names_.push_back(named ? names.unique(program.labels[i], fmt::format("t{}", i)) : "");
     }
+    for (const ir::Node& node : program.nodes)
+      if (node.op == Op::kEntry && array_names_.count(array_of(node)) == 0) {
+        arrays_.push_back(array_of(node));
+        array_names_[arrays_.back()] = names.unique("", fmt::format("array{}", arrays_.size()));
+      }
   }
 
   std::string print() const {
     std::string text;
+    if (!arrays_.empty())
+      text += latex_ ? "  % operatorname{entry}(x, array): that of number floor(x), the first is 0; beyond "
+                       "an end that\n"
+                     : "  entry(x, array): that of number floor(x), the first is 0; beyond an end that\n";
+    for (const std::uint32_t array : arrays_)
+      text += equation(spelt(array_names_.at(array)),
+                       fmt::format("({})", fmt::join(support::array_of(array), ", ")));
     for (std::size_t i = 0; i < names_.size(); ++i)
       if (!names_[i].empty()) text += equation(spelt(names_[i]), expression(ValueId(i), true).text);
     for (const ir::Output& output : program_.outputs)
@@ -87,6 +104,10 @@ class EquationPrinter {
     return "";
   }
 
+  std::uint32_t array_of(const ir::Node& entry) const {
+    return static_cast<std::uint32_t>(program_[entry.b].literal);
+  }
+
   std::string at_least(const Text& text, int strength) const {
     return text.strength >= strength ? text.text : "(" + text.text + ")";
   }
@@ -119,6 +140,8 @@ class EquationPrinter {
         return {fmt::format("{}sin({})", function, a(0)), 2};
       case Op::kCos:
         return {fmt::format("{}cos({})", function, a(0)), 2};
+      case Op::kEntry:
+        return call(node.op, a(0), ", " + spelt(array_names_.at(array_of(node))));
       default:
         return call(node.op, a(0), ir::operand_count(node.op) == 2 ? ", " + b(0) : "");
     }
@@ -138,6 +161,8 @@ class EquationPrinter {
   bool latex_;
   std::vector<std::size_t> uses_;
   std::vector<std::string> names_;
+  std::vector<std::uint32_t> arrays_;  ///< of constants that entries are taken of, in the order of their use
+  std::map<std::uint32_t, std::string> array_names_;
 };
 
 std::string expanded(const dynamics::Equations& equations, bool latex) {

@@ -32,7 +32,8 @@ struct PythonArguments {
   std::string folder;
   std::vector<std::string> functions, frames;
   std::string compiler, flags = "-O2";
-  std::string cpp_compiler, cpp_flags = "-O2 -march=native -ffp-contract=off -fno-tree-slp-vectorize";
+  std::string cpp_compiler,
+      cpp_flags = "-O2 -march=native -ffp-contract=off -fno-math-errno -fno-tree-slp-vectorize";
   bool libm = false, packs = false;
 };
 

@@ -133,18 +133,19 @@ std::string simulink_text(const CompileOptions& options, const CompiledModel& co
 }  // namespace
 
 const std::vector<Wrapper>& wrappers() {
-  static const std::vector<Wrapper> list = {{"casadi",
-                                             "casadi",
-                                             {"initial_state", "forward_dynamics", "linearize"},
-                                             false,
-                                             needs_plain_rates,
-                                             casadi_text},
-                                            {"simulink",
-                                             "sfunction",
-                                             {"initial_state", "outputs", "close_loops", "project"},
-                                             true,
-                                             takes_everything,
-                                             simulink_text}};
+  static const std::vector<Wrapper> list = {
+      {"casadi",
+       "casadi",
+       {"initial_state", "position_rate", "forward_dynamics", "linearize"},
+       false,
+       needs_plain_rates,
+       casadi_text},
+      {"simulink",
+       "sfunction",
+       {"initial_state", "outputs", "close_loops", "project"},
+       true,
+       takes_everything,
+       simulink_text}};
   return list;
 }
 

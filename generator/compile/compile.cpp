@@ -16,6 +16,7 @@
 #include "emit/cpp/model_files.hpp"
 #include "loops/plan/plan.hpp"
 #include "passes/lanes.hpp"
+#include "passes/value_order.hpp"
 #include "programs/closed_system.hpp"
 #include "programs/like_limbs.hpp"
 #include "programs/tree_functions.hpp"
@@ -105,6 +106,7 @@ CompiledModel compile(const model::Mechanism& mechanism, const CompileOptions& g
       if (options.choices.language == ir::Language::kC) program.lanes.clear();  // the same bits one by one
     }
   }
+  for (ir::Program& program : result.module.functions) program = passes::order_values(program);
   const std::vector<std::string> defects = module_defects(result.module, result.facts);
   JD_CHECK(defects.empty(), "broken program, {}", defects.front());
   result.omissions = find_omissions(mechanism, chosen, equations, result);

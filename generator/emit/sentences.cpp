@@ -63,10 +63,13 @@ std::string linearization_sentence(const programs::SceneFacts& scene) {
       parts, scene.time.dynamics ? " + rate_t dt" : "", scene.time.outputs ? " + output_t dt" : "");
 }
 
-std::vector<std::string> regularity_sentences(const std::string& limits) {
+std::vector<std::string> regularity_sentences(const ModelText& model, const std::string& limits) {
   return {
-      "Of what the last closing of the loops solved for: 1 at its best, 0 where it is singular, negative "
-      "beyond.",
+      fmt::format(
+          "Of what the last closing of the loops solved for: 1 {}, 0 where it is singular, negative beyond.",
+          model.facts.carried.empty() ? "at its best"
+                                      : "where closed forms of positions are best and "
+                                        "velocities as at the start"),
       fmt::format("Below {}least_regularity, or not a number, do not trust what follows.", limits)};
 }
 

@@ -19,7 +19,7 @@ std::string linearization_sentence(const programs::SceneFacts& scene);
 
 /// Of State's members that tell how its loops were closed, and of what judges them. `limits` is what stands in front of
 /// the names of the limits, e.g. "Model::".
-std::vector<std::string> regularity_sentences(const std::string& limits);
+std::vector<std::string> regularity_sentences(const ModelText& model, const std::string& limits);
 std::string opening_sentence(const ModelText& model, const std::string& limits);
 std::string beyond_sentence(const ModelText& model);
 std::string closed_sentence();

@@ -52,8 +52,7 @@ constexpr auto kFiles = std::to_array<std::string_view>(
      "uchar", "unistd", "values", "wchar", "wctype",
      // the tool's
      "bench", "board", "cost", "draws", "ensemble", "ensemble_interface", "functions", "jourdain",
-     "jourdain_ensemble", "jourdain_fmi2", "jourdain_fmi3", "jourdain_interface", "long_real", "model_table",
-     "pack", "shim", "stepping"});
+     "long_real", "model_table", "pack", "shim", "stepping"});
 
 std::string in_small_letters(std::string_view name) {
   std::string small(name);
@@ -65,6 +64,11 @@ std::string in_small_letters(std::string_view name) {
 template <std::size_t n>
 bool contains(const std::array<std::string_view, n>& list, std::string_view name) {
   return std::find(list.begin(), list.end(), name) != list.end();
+}
+
+/// Names of the tool's own begin so, and none ends with `_model`, which is how models are renamed.
+bool is_of_the_tool(std::string_view small) {
+  return small.starts_with("jourdain_") && !small.ends_with("_model");
 }
 
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
@@ -82,7 +86,8 @@ bool is_reserved(std::string_view name) {
 }
 
 bool is_taken_by_files(std::string_view name) {
-  return contains(kOfEmittedFiles, name) || contains(kFiles, in_small_letters(name));
+  const std::string small = in_small_letters(name);
+  return contains(kOfEmittedFiles, name) || contains(kFiles, small) || is_of_the_tool(small);
 }
 
 std::string cpp_name(std::string_view name) {

@@ -41,8 +41,9 @@ struct Expected {
   std::vector<ScaledReal> values;
   /// By differences: they know nothing of how rounding is amplified.
   bool scales_are_unknown = false;
-  /// Numbers of which it only knows that they are positive and no more than 1.
+  /// Numbers of which it only knows that they are positive and no more than this.
   std::vector<std::size_t> shares = {};
+  double largest_share = 1;
   /// What it may be as well, by another rule.
   std::function<Expected()> otherwise = {};
 };

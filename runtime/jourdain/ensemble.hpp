@@ -193,7 +193,7 @@ class Ensemble {
     auto input = stored.input;
     const Number length(static_cast<double>(h));
     const std::size_t first = index * lanes;
-    Number nothing;  // stays zero where all are numbers
+    Number nothing{};  // stays zero where all are numbers
     for (std::size_t step = 0; step < steps; ++step) {
       before(Block{model, state, input, index, first}, step);
       if constexpr (std::is_invocable_v<const Stepper&, const BlockModel&, decltype(state)&, decltype(input)&,

@@ -59,7 +59,7 @@ struct Pack {
 
   Vector values;
 
-  Pack() noexcept : values{} {}
+  Pack() = default;  // no numbers yet; Pack{} is zeros
   explicit Pack(double x) noexcept : values(Vector{} + static_cast<Real>(x)) {
     // x + 0 would lose the sign of a negative zero.
     if (x == 0) values = std::signbit(x) ? -Vector{} : Vector{};

@@ -20,7 +20,7 @@ void LoadedModel::Close::operator()(void* handle) const { dlclose(handle); }
 
 LoadedModel::LoadedModel(const std::string& path) : handle_(dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL)) {
   if (!handle_) throw support::EnvironmentError("cannot load '" + path + "': " + last_error());
-  void* symbol = dlsym(handle_.get(), "jourdain_model");
+  void* symbol = dlsym(handle_.get(), "jourdain_shim_table");
   if (!symbol) throw support::EnvironmentError("no model in '" + path + "': " + last_error());
   table_ = reinterpret_cast<const jourdain_model_table* (*)()>(symbol)();
 }

@@ -13,7 +13,7 @@ namespace jourdain::studies {
 /// Keeps the shared object loaded for as long as it lives.
 class LoadedModel {
  public:
-  /// Throws EnvironmentError naming the path when the object cannot be loaded or has no `jourdain_model`.
+  /// Throws EnvironmentError naming the path when the object cannot be loaded or has no `jourdain_shim_table`.
   explicit LoadedModel(const std::string& path);
 
   const jourdain_model_table& table() const { return *table_; }

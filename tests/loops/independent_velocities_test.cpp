@@ -294,6 +294,20 @@ TEST(IndependentVelocities, AreProvenOverDeclaredRanges) {
   EXPECT_EQ(form.box.positions[0].high, 1);
 }
 
+/// Where the start is not where they are most regular others are more so than it.
+TEST(IndependentVelocities, AreValidatedFromAnyStart) {
+  for (const char* start : {"0", "0.3", "1.1", "-0.9"}) {
+    const std::string text = sleigh(fmt::format("range = [-1.2, 1.2]\ninitial_position = {}\n", start));
+    support::Diagnostics diagnostics("sleigh.toml", text);
+    const auto mechanism = model::read_mechanism(diagnostics, {});
+    ASSERT_TRUE(mechanism) << diagnostics.format();
+    const loops::LoopPlan plan = loops::plan_loops(*mechanism, diagnostics).value();
+    CompileOptions options;
+    options.loops = plan;
+    EXPECT_EQ(compile(*mechanism, options).verdict.failures, std::vector<std::string>()) << start;
+  }
+}
+
 TEST(IndependentVelocities, AreRefusedWhereTheyAreSingular) {
   for (const char* range : {"", "range = [-1.6, 1.6]\n", "range = [-1.5707963267948966, 0.3]\n"}) {
     const Planned found = planned(sleigh(range));

@@ -18,14 +18,33 @@ TEST(IsReserved, CoversKeywordsMacrosAndEmittedNames) {
 }
 
 TEST(CppName, LeavesToFilesAndHeadersWhatTheyAreCalled) {
-  for (const char* name : {"get", "step", "call", "compute", "where", "from_literal", "table_entry", "math",
-                           "string", "stdint", "features", "Math", "jourdain_interface", "jourdain_ensemble",
-                           "Jourdain", "JOURDAIN_FMI2", "ensemble", "pack", "shim"}) {
+  for (const char* name : {"get",
+                           "step",
+                           "call",
+                           "compute",
+                           "where",
+                           "from_literal",
+                           "table_entry",
+                           "math",
+                           "string",
+                           "stdint",
+                           "features",
+                           "Math",
+                           "jourdain_interface",
+                           "jourdain_ensemble",
+                           "Jourdain",
+                           "JOURDAIN_FMI2",
+                           "ensemble",
+                           "pack",
+                           "shim",
+                           "jourdain_status",
+                           "jourdain_shim_table"}) {
     EXPECT_TRUE(is_taken_by_files(name)) << name;
     EXPECT_EQ(cpp_name(name), fmt::format("{}_model", name));
     EXPECT_EQ(cpp_name(cpp_name(name)), cpp_name(name)) << name;
   }
-  for (const char* name : {"arm", "stepper", "Get", "maths", "model"}) EXPECT_EQ(cpp_name(name), name);
+  for (const char* name : {"arm", "stepper", "Get", "maths", "model", "jourdain_model", "jourdains"})
+    EXPECT_EQ(cpp_name(name), name);
 }
 
 TEST(CppName, MakesANamespaceOfAnyText) {

@@ -50,7 +50,7 @@ std::string state(const CNames& names, const ModelText& model) {
   members += array(names, "y", scene.positions.size()) + array(names, "z", scene.velocities.size());
   if (!scene.constraints.empty()) {
     const std::string limits = names.global("");
-    members += c_doc(fmt::format("{}", fmt::join(regularity_sentences(limits), " ")), 2) +
+    members += c_doc(fmt::format("{}", fmt::join(regularity_sentences(model, limits), " ")), 2) +
                fmt::format("  {} regularity;\n", names.real()) + c_doc(opening_sentence(model, limits), 2) +
                fmt::format("  {} opening;\n", names.real());
     if (!model.proven.positions.empty())

@@ -39,7 +39,7 @@ std::string output_struct(const ModelText& model) {
 std::string guard_members(const ModelText& model) {
   if (model.facts.constraints.empty()) return "";
   std::string text;
-  for (const std::string& sentence : regularity_sentences("Model::")) text += "  /// " + sentence + "\n";
+  for (const std::string& sentence : regularity_sentences(model, "Model::")) text += wrapped_doc(sentence, 2);
   text += "  Real regularity = Real(1.0);\n" + wrapped_doc(opening_sentence(model, "Model::"), 2) +
           "  Real opening = Real(0.0);\n";
   if (model.proven.positions.empty()) return text;

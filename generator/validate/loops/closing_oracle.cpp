@@ -124,6 +124,8 @@ std::vector<Expected> closing_expected(const LoopScene& scene, const State& open
                                        const ir::Program& program) {
   const Closed c = closed(scene, open);
   Expected expected{c.oracle, {}, scene.plan.closed_form.has_value()};
+  // Determinants of velocities are over those at the start, and may be larger elsewhere.
+  if (!scene.closure.carried().empty()) expected.largest_share = std::numeric_limits<double>::max();
   for (const ir::Output& output : program.outputs) {
     const auto i = static_cast<std::size_t>(std::max(output.row, 0));
     if (output.name == "regularity" && !c.regularity_is_known)
