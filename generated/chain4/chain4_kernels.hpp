@@ -323,18 +323,18 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[4]) noexcept 
 
 template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>&, const State<Real>& state, const Input<Real>&, Real (&q)[4]) noexcept {
-  Real t1, c0, t3, t6, t10, t15, t19, t24;
-  detail::sine_cosine4(state.y[0], t1, c0, state.y[1], t3, t6, state.y[2], t10, t15, state.y[3], t19, t24);
-  const Real c1 = t1 * t3 - c0 * t6;
-  const Real t14 = c0 * t3 + t1 * t6;
-  const Real c2 = t14 * t10 + c1 * t15;
-  const Real c3 = (c1 * t10 - t14 * t15) * t19 - c2 * t24;
-  const Real lga3 = c3 * Real(4.905);
-  const Real lga2 = c2 * Real(14.715);
-  const Real lgs3 = lga2 - lga3;
-  const Real lga1 = c1 * Real(24.525000000000002);
-  const Real lgs2 = lga1 + lgs3;
+  Real t3, c0, t4, t5, t13, t14, t22, t23;
+  detail::sine_cosine4(state.y[0], t3, c0, state.y[1], t4, t5, state.y[2], t13, t14, state.y[3], t22, t23);
+  const Real t8 = c0 * t4 + t3 * t5;
+  const Real c1 = t3 * t4 - c0 * t5;
+  const Real c2 = t8 * t13 + c1 * t14;
+  const Real c3 = (c1 * t13 - t8 * t14) * t22 - c2 * t23;
   const Real lga0 = c0 * Real(34.335);
+  const Real lga1 = c1 * Real(24.525000000000002);
+  const Real lga2 = c2 * Real(14.715);
+  const Real lga3 = c3 * Real(4.905);
+  const Real lgs3 = lga2 - lga3;
+  const Real lgs2 = lga1 + lgs3;
   const Real lgs1 = lga0 - lgs2;
   q[0] = lgs1;
   q[1] = -lgs2;
@@ -413,50 +413,50 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (&zdot)[4], Real (&tau)[4])
     noexcept {
-  Real s1_0, c1_0, s2_1, c2_1, s3_2, c3_2, t31, c0;
-  detail::sine_cosine4(state.y[1], s1_0, c1_0, state.y[2], s2_1, c2_1, state.y[3], s3_2, c3_2, state.y[0],
-      t31, c0);
-  const Real c2_0 = s1_0 * s2_1 - c1_0 * c2_1;
-  const Real s2_0 = c1_0 * s2_1 + s1_0 * c2_1;
-  const Real s3_0 = c2_0 * s3_2 - s2_0 * c3_2;
-  const Real las3_0 = Real(0.5) * s3_0;
-  const Real lww0 = state.z[0] * state.z[0];
-  const Real c3_0 = s2_0 * s3_2 + c2_0 * c3_2;
-  const Real lac3_0 = Real(0.5) * c3_0;
-  const Real c3 = t31 * s3_0 - c0 * c3_0;
-  const Real lg3 = c3 * Real(4.905);
-  const Real s3_1 = c2_1 * s3_2 + s2_1 * c3_2;
-  const Real las3_1 = Real(0.5) * s3_1;
+  Real t23, c0, s1_0, c1_0, s2_1, c2_1, s3_2, c3_2;
+  detail::sine_cosine4(state.y[0], t23, c0, state.y[1], s1_0, c1_0, state.y[2], s2_1, c2_1, state.y[3], s3_2,
+      c3_2);
   const Real w1_z = state.z[0] + state.z[1];
+  const Real w2_z = w1_z + state.z[2];
+  const Real w3_z = w2_z + state.z[3];
+  const Real lww0 = state.z[0] * state.z[0];
   const Real lww1 = w1_z * w1_z;
+  const Real lww2 = w2_z * w2_z;
+  const Real lww3 = w3_z * w3_z;
+  const Real lg0 = c0 * Real(34.335);
+  const Real lac1_0 = c1_0 * Real(2.5);
+  const Real las1_0 = s1_0 * Real(2.5);
+  const Real c1 = s1_0 * t23 - c0 * c1_0;
+  const Real lg1 = c1 * Real(24.525000000000002);
+  const Real lac2_1 = c2_1 * Real(1.5);
+  const Real las2_1 = s2_1 * Real(1.5);
+  const Real s2_0 = c1_0 * s2_1 + s1_0 * c2_1;
+  const Real c2_0 = s1_0 * s2_1 - c1_0 * c2_1;
+  const Real lac2_0 = Real(1.5) * c2_0;
+  const Real las2_0 = Real(1.5) * s2_0;
+  const Real c2 = t23 * s2_0 + c0 * c2_0;
+  const Real lg2 = c2 * Real(14.715);
+  const Real lac3_2 = c3_2 * Real(0.5);
+  const Real las3_2 = s3_2 * Real(0.5);
+  const Real s3_1 = c2_1 * s3_2 + s2_1 * c3_2;
   const Real c3_1 = s2_1 * s3_2 - c2_1 * c3_2;
   const Real lac3_1 = Real(0.5) * c3_1;
+  const Real las3_1 = Real(0.5) * s3_1;
+  const Real s3_0 = c2_0 * s3_2 - s2_0 * c3_2;
+  const Real c3_0 = s2_0 * s3_2 + c2_0 * c3_2;
+  const Real lac3_0 = Real(0.5) * c3_0;
+  const Real las3_0 = Real(0.5) * s3_0;
+  const Real c3 = t23 * s3_0 - c0 * c3_0;
+  const Real lg3 = c3 * Real(4.905);
   const Real lx1 = zdot[0] + zdot[1];
-  const Real lac3_2 = c3_2 * Real(0.5);
   const Real lx2 = lx1 + zdot[2];
-  const Real w2_z = w1_z + state.z[2];
-  const Real lww2 = w2_z * w2_z;
-  const Real las3_2 = s3_2 * Real(0.5);
   const Real lx3 = lx2 + zdot[3];
   const Real la3 = lww0 * las3_0 + lac3_0 * zdot[0] - (lg3 + (lac3_2 * lx2 + (lww2 * las3_2 + lx3 *
       Real(0.3333333333333333)) + (lww1 * las3_1 - lac3_1 * lx1)));
-  const Real c2 = t31 * s2_0 + c0 * c2_0;
-  const Real lg2 = c2 * Real(14.715);
-  const Real las2_0 = Real(1.5) * s2_0;
-  const Real w3_z = w2_z + state.z[3];
-  const Real lww3 = w3_z * w3_z;
-  const Real lac2_1 = c2_1 * Real(1.5);
-  const Real lac2_0 = Real(1.5) * c2_0;
-  const Real las2_1 = s2_1 * Real(1.5);
   const Real las3 = la3 + (lac2_0 * zdot[0] - (lac3_2 * lx3 + (lww1 * las2_1 + lx2 *
       Real(1.3333333333333333))) + (lg2 - (lww0 * las2_0 - (lww3 * las3_2 - lac2_1 * lx1))));
-  const Real c1 = s1_0 * t31 - c0 * c1_0;
-  const Real lg1 = c1 * Real(24.525000000000002);
-  const Real las1_0 = s1_0 * Real(2.5);
-  const Real lac1_0 = c1_0 * Real(2.5);
   const Real las2 = las3 + (lww3 * las3_1 + lac3_1 * lx3 + (lg1 - lac2_1 * lx2 - (lww0 * las1_0 + lx1 *
       Real(2.3333333333333335) - (lww2 * las2_1 - lac1_0 * zdot[0]))));
-  const Real lg0 = c0 * Real(34.335);
   const Real las1 = las2 - (lg0 + zdot[0] * Real(3.3333333333333335) - (lww1 * las1_0 - lac1_0 * lx1) - (lww2
       * las2_0 + lac2_0 * lx2) + (lww3 * las3_0 - lac3_0 * lx3));
   tau[0] = -las1;

@@ -927,195 +927,181 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[1]) noexcept {
-  Real s0, c0, s2, c2;
-  detail::sine_cosine2(state.y[0], s0, c0, state.y[5], s2, c2);
+  Real s2, c2, s0, c0;
+  detail::sine_cosine2(state.y[5], s2, c2, state.y[0], s0, c0);
   const Real q1d2 = state.y[3] * Real(2.0);
-  const Real q122 = state.y[3] * q1d2;
-  const Real q1d1 = Real(2.0) * state.y[2];
-  const Real q111 = state.y[2] * q1d1;
-  const Real t8 = Real(1.0) - q111;
-  const Real q1r2_z = q122 - t8;
   const Real q1d3 = Real(2.0) * state.y[4];
-  const Real q123 = state.y[3] * q1d3;
-  const Real q101 = state.y[1] * q1d1;
-  const Real q1r2_y = q123 + q101;
+  const Real q122 = state.y[3] * q1d2;
+  const Real q133 = state.y[4] * q1d3;
+  const Real q112 = q1d2 * state.y[2];
   const Real q113 = q1d3 * state.y[2];
   const Real q102 = q1d2 * state.y[1];
-  const Real q1r2_x = q113 - q102;
-  const Real tie_rodbx1p_y = Real(0.02) + q1r2_x * Real(0.14) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02));
-  const Real q1r1_z = q123 - q101;
-  const Real q133 = state.y[4] * q1d3;
-  const Real q1r1_y = q133 - t8;
-  const Real q112 = q1d2 * state.y[2];
   const Real q103 = q1d3 * state.y[1];
+  const Real q1r0_x = q133 + (q122 - Real(1.0));
+  const Real q1r0_y = q112 - q103;
+  const Real q1r0_z = q113 + q102;
+  const Real top_jointax_y = c2 * Real(0.03132205098267723) + s2 * Real(0.24);
+  const Real q1d1 = Real(2.0) * state.y[2];
+  const Real q111 = state.y[2] * q1d1;
+  const Real q123 = state.y[3] * q1d3;
+  const Real q101 = state.y[1] * q1d1;
   const Real q1r1_x = q112 + q103;
-  const Real tie_rodbx1p_x = Real(0.34) - q1r1_x * Real(0.14) + (q1r1_z * Real(0.07) + q1r1_y * Real(0.02));
-  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
-  const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
-  const Real tie_rods0bf0_y = tie_rodd_z * Real(3.123475237772121);
-  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
+  const Real t34 = Real(1.0) - q111;
+  const Real q1r1_y = q133 - t34;
+  const Real q1r1_z = q123 - q101;
+  const Real q1r2_x = q113 - q102;
+  const Real q1r2_y = q123 + q101;
+  const Real q1r2_z = q122 - t34;
+  const Real top_jointax_x = s2 * Real(0.03132205098267723) - c2 * Real(0.24);
+  const Real top_jointbx1p_x = (q1r1_x - q1r1_y) * Real(0.03) - (q1r1_z * Real(0.31) + Real(0.34));
+  const Real top_jointbx1p_y = Real(0.03) * (q1r2_x + q1r2_y) + (q1r2_z * Real(0.31) + Real(0.02));
+  const Real top_jointbx1_x = c0 * top_jointbx1p_x - s0 * top_jointbx1p_y;
+  const Real top_jointbx1_y = c0 * top_jointbx1p_y + s0 * top_jointbx1p_x;
   const detail::Angle<Real> expression = detail::Angle<Real>(state.t) * model.rate;
   Real s, c;
   detail::sine_cosine(expression, s, c);
   const Real expression_2 = Real(1.0) - c;
   const Real expression_3 = expression_2 * model.c1;
-  const Real tie_rodd_y = expression_3 - tie_rodbx1_x;
-  const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
-  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y - s0 * tie_rods0bf0_x;
-  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x + s0 * tie_rods0bf0_y;
-  const Real q1r0_x = q133 + (q122 - Real(1.0));
-  const Real q1r0_y = q112 - q103;
-  const Real q1r0_z = q113 + q102;
+  const Real tie_rodbx1p_x = Real(0.34) - q1r1_x * Real(0.14) + (q1r1_z * Real(0.07) + q1r1_y * Real(0.02));
+  const Real tie_rodbx1p_y = Real(0.02) + q1r2_x * Real(0.14) + (q1r2_z * Real(0.07) + q1r2_y * Real(0.02));
+  const Real tie_rodbx1_x = c0 * tie_rodbx1p_x + s0 * tie_rodbx1p_y;
+  const Real tie_rodbx1_y = c0 * tie_rodbx1p_y - s0 * tie_rodbx1p_x;
   const Real tie_rodd_x = q1r0_z * Real(0.07) + Real(0.14) + (q1r0_x * Real(0.14) - q1r0_y * Real(0.02));
+  const Real tie_rodd_y = expression_3 - tie_rodbx1_x;
+  const Real tie_rodd_z = tie_rodbx1_y + Real(0.060000000000000026);
+  const Real t101 = q1r0_z * Real(0.03);
+  const Real top_joints1bf1_y = c0 * q1r1_y + s0 * q1r2_y;
+  const Real top_joints1bf1_z = c0 * q1r1_z + s0 * q1r2_z;
+  const Real t110 = Real(0.03) * top_joints1bf1_z;
+  const Real top_joints1bf1_x = c0 * q1r1_x - s0 * q1r2_x;
+  const Real top_joints2bf1_y = c0 * q1r2_y - s0 * q1r1_y;
+  const Real top_joints2bf1_z = c0 * q1r2_z - s0 * q1r1_z;
+  const Real t122 = Real(0.03) * top_joints2bf1_z;
+  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t122;
+  const Real top_joints2bf1_x = c0 * q1r2_x + s0 * q1r1_x;
+  const Real top_joints2bm_y = t122 - Real(0.31) * top_joints2bf1_x;
+  const Real top_joints2bm_z = Real(0.03) * (top_joints2bf1_y - top_joints2bf1_x);
+  const Real top_joints2am_z = top_jointax_x * Real(0.9975640502598242);
+  const Real tie_rods0bf0_x = tie_rodd_y * Real(3.123475237772121);
+  const Real tie_rods0bf0_y = tie_rodd_z * Real(3.123475237772121);
   const Real tie_rods0bf0_z = tie_rodd_x * Real(3.123475237772121);
+  const Real tie_rods0bf1p_x = c0 * tie_rods0bf0_x + s0 * tie_rods0bf0_y;
+  const Real tie_rods0bf1p_y = c0 * tie_rods0bf0_y - s0 * tie_rods0bf0_x;
   const Real tie_rods0bf1_y = q1r2_y * tie_rods0bf1p_y - (q1r0_y * tie_rods0bf0_z + q1r1_y * tie_rods0bf1p_x);
   const Real tie_rods0bf1_z = q1r2_z * tie_rods0bf1p_y + (q1r0_z * tie_rods0bf0_z - q1r1_z * tie_rods0bf1p_x);
   const Real tie_rods0bm_x = Real(0.07) * tie_rods0bf1_y - Real(0.02) * tie_rods0bf1_z;
-  const Real top_joints2bf1_y = c0 * q1r2_y - s0 * q1r1_y;
-  const Real top_joints2bf1_z = c0 * q1r2_z - s0 * q1r1_z;
-  const Real t103 = Real(0.03) * top_joints2bf1_z;
-  const Real top_joints2bm_x = Real(0.31) * top_joints2bf1_y - t103;
-  const Real top_jointax_y = c2 * Real(0.03132205098267723) + s2 * Real(0.24);
-  const Real top_jointax_x = s2 * Real(0.03132205098267723) - c2 * Real(0.24);
-  const Real top_joints2am_z = top_jointax_x * Real(0.9975640502598242);
-  const Real t118 = Real(1.0) / top_joints2am_z;
-  const Real t119 = top_jointax_y * t118;
-  const Real top_joints1bf1_y = c0 * q1r1_y + s0 * q1r2_y;
-  const Real top_joints1bf1_z = c0 * q1r1_z + s0 * q1r2_z;
-  const Real t128 = Real(0.03) * top_joints1bf1_z;
-  const Real t131 = Real(1.0) / (top_joints2bm_x * t119 + (Real(0.31) * top_joints1bf1_y - t128));
-  const Real t132 = tie_rods0bm_x * t131;
-  const Real top_joints2bf1_x = c0 * q1r2_x + s0 * q1r1_x;
-  const Real top_joints2bm_y = t103 - Real(0.31) * top_joints2bf1_x;
-  const Real top_joints1bf1_x = c0 * q1r1_x - s0 * q1r2_x;
-  const Real t144 = top_joints2bm_y * t119 + (t128 + Real(0.31) * top_joints1bf1_x);
   const Real tie_rods0bf1_x = q1r2_x * tie_rods0bf1p_y + (q1r0_x * tie_rods0bf0_z + q1r1_x * tie_rods0bf1p_x);
-  const Real t158 = q1r0_z * Real(0.03);
-  const Real t161 = (top_joints2bm_x * Real(0.06992681194351041) + (q1r0_y * Real(0.31) + t158)) * t131;
-  const Real t167 = t144 * t161 - (top_joints2bm_y * Real(0.06992681194351041) - (t158 - q1r0_x *
-      Real(0.31)));
-  const Real t168 = Real(1.0) / t167;
-  const Real t169 = (t144 * t132 - (Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x)) * t168;
-  const Real t171 = t167 * Real(0.0967741935483871);
-  const Real top_joints2bm_z = Real(0.03) * (top_joints2bf1_y - top_joints2bf1_x);
-  const Real t178 = top_joints2bm_z * t119 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
-  const Real t185 = Real(1.0) / (t171 * t169 - (t178 * t132 - (Real(0.14) * tie_rods0bf1_y - Real(0.02) *
-      tie_rods0bf1_x)));
-  const Real top_jointbx1p_y = Real(0.03) * (q1r2_x + q1r2_y) + (q1r2_z * Real(0.31) + Real(0.02));
-  const Real top_jointbx1p_x = (q1r1_x - q1r1_y) * Real(0.03) - (q1r1_z * Real(0.31) + Real(0.34));
-  const Real top_jointbx1_y = c0 * top_jointbx1p_y + s0 * top_jointbx1p_x;
-  const Real top_jointbx1_x = c0 * top_jointbx1p_x - s0 * top_jointbx1p_y;
-  const Real t203 = top_jointbx1_y + top_jointbx1_x * t119;
-  const Real t206 = top_jointbx1_x * Real(0.06992681194351041) - t161 * t203;
-  const Real t214 = t185 * (t169 * t206 + (t132 * t203 + (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y *
-      tie_rods0bf0_x)));
-  const Real t217 = t168 * (t206 - t171 * t214);
-  const Real t222 = t131 * (t144 * t217 + (t203 + t178 * t214));
   const Real derivative = s * model.c2;
-  const Real t229 = t185 * (tie_rods0bf0_x * derivative);
-  const Real t230 = Real(0.0967741935483871) * t229;
-  const Real t231 = t222 * state.z[0] - t230;
-  const Real t233 = t217 * state.z[0] + t230;
-  const Real top_jointbm1t_z = Real(0.03) * (t231 + t233);
-  const Real t238 = t214 * state.z[0] - t229;
-  const Real t239 = Real(0.03) * t238;
-  const Real top_jointbm1t_y = t239 - Real(0.31) * t231;
-  const Real top_jointbm1a_x = t233 * top_jointbm1t_z + t238 * top_jointbm1t_y;
-  const Real top_jointbm1t_x = Real(0.31) * t233 + t239;
-  const Real top_jointbm1a_y = t231 * top_jointbm1t_z + t238 * top_jointbm1t_x;
-  const Real top_jointbm1a_z = t231 * top_jointbm1t_y - t233 * top_jointbm1t_x;
-  const Real top_jointbm1app_x = q1r1_z * top_jointbm1a_z + (q1r1_x * top_jointbm1a_x - q1r1_y *
-      top_jointbm1a_y);
-  const Real top_jointbm1app_y = q1r2_z * top_jointbm1a_z - (q1r2_x * top_jointbm1a_x + q1r2_y *
-      top_jointbm1a_y);
-  const Real t270 = t118 * (top_joints2bm_x * t222 - (top_joints2bm_y * t217 + (top_jointbx1_x +
-      top_joints2bm_z * t214)));
-  const Real t271 = t270 * state.z[0];
-  const Real top_jointam2a_y = t271 * (top_jointax_y * t271);
-  const Real top_jointam2app_z = Real(0.9975640502598242) * top_jointam2a_y;
+  const Real t170 = Real(1.0) / top_joints2am_z;
+  const Real t171 = top_jointax_y * t170;
+  const Real t177 = top_joints2bm_y * t171 + (t110 + Real(0.31) * top_joints1bf1_x);
+  const Real t181 = top_joints2bm_z * t171 + Real(0.03) * (top_joints1bf1_y + top_joints1bf1_x);
+  const Real t187 = Real(1.0) / (top_joints2bm_x * t171 + (Real(0.31) * top_joints1bf1_y - t110));
+  const Real t188 = (top_joints2bm_x * Real(0.06992681194351041) + (q1r0_y * Real(0.31) + t101)) * t187;
+  const Real t192 = t177 * t188 - (top_joints2bm_y * Real(0.06992681194351041) - (t101 - q1r0_x *
+      Real(0.31)));
+  const Real t194 = t192 * Real(0.0967741935483871);
+  const Real t195 = tie_rods0bm_x * t187;
+  const Real t200 = Real(1.0) / t192;
+  const Real t201 = (t177 * t195 - (Real(0.14) * tie_rods0bf1_z - Real(0.07) * tie_rods0bf1_x)) * t200;
+  const Real t206 = Real(1.0) / (t194 * t201 - (t181 * t195 - (Real(0.14) * tie_rods0bf1_y - Real(0.02) *
+      tie_rods0bf1_x)));
+  const Real t208 = top_jointbx1_y + top_jointbx1_x * t171;
+  const Real t211 = top_jointbx1_x * Real(0.06992681194351041) - t188 * t208;
+  const Real t217 = t206 * (t201 * t211 + (t195 * t208 + (tie_rodbx1_x * tie_rods0bf0_y + tie_rodbx1_y *
+      tie_rods0bf0_x)));
+  const Real t220 = t200 * (t211 - t194 * t217);
+  const Real t225 = t187 * (t177 * t220 + (t208 + t181 * t217));
+  const Real t232 = t170 * (top_joints2bm_x * t225 - (top_joints2bm_y * t220 + (top_jointbx1_x +
+      top_joints2bm_z * t217)));
+  const Real t237 = t232 * state.z[0];
+  const Real t239 = t206 * (tie_rods0bf0_x * derivative);
+  const Real t240 = Real(0.0967741935483871) * t239;
+  const Real t241 = t225 * state.z[0] - t240;
+  const Real t242 = t220 * state.z[0] + t240;
+  const Real t243 = t217 * state.z[0] - t239;
+  const Real t245 = Real(0.03) * t243;
+  const Real top_jointbm1t_x = Real(0.31) * t242 + t245;
+  const Real top_jointbm1t_y = t245 - Real(0.31) * t241;
+  const Real top_jointbm1t_z = Real(0.03) * (t241 + t242);
+  const Real top_jointam2a_y = t237 * (top_jointax_y * t237);
+  const Real top_jointam2app_x = top_jointam2a_y * Real(0.0697564737441253);
+  const Real top_jointbm1a_x = t242 * top_jointbm1t_z + t243 * top_jointbm1t_y;
+  const Real top_jointbm1a_y = t241 * top_jointbm1t_z + t243 * top_jointbm1t_x;
+  const Real top_jointbm1a_z = t241 * top_jointbm1t_y - t242 * top_jointbm1t_x;
   const Real top_jointbm1vpp_x = q1r1_z * top_jointbm1t_z + (q1r1_x * top_jointbm1t_x + q1r1_y *
       top_jointbm1t_y);
   const Real top_jointbm1vpp_y = q1r2_z * top_jointbm1t_z - (q1r2_x * top_jointbm1t_x - q1r2_y *
       top_jointbm1t_y);
   const Real top_jointbm1vp_x = c0 * top_jointbm1vpp_x + s0 * top_jointbm1vpp_y;
   const Real top_jointbm0t_x = top_jointbx1_y * state.z[0];
+  const Real top_jointam2a_x = t237 * (top_jointax_x * t237);
+  const Real top_jointbm1vp_y = c0 * top_jointbm1vpp_y - s0 * top_jointbm1vpp_x;
+  const Real top_jointbm1app_x = q1r1_z * top_jointbm1a_z + (q1r1_x * top_jointbm1a_x - q1r1_y *
+      top_jointbm1a_y);
+  const Real top_jointbm1app_y = q1r2_z * top_jointbm1a_z - (q1r2_x * top_jointbm1a_x + q1r2_y *
+      top_jointbm1a_y);
+  const Real top_jointbm0t_y = top_jointbx1_x * state.z[0];
+  const Real top_jointbm0b_y = top_jointbm0t_y + Real(2.0) * top_jointbm1vp_y;
+  const Real top_jointam2app_z = Real(0.9975640502598242) * top_jointam2a_y;
   const Real top_jointbm0b_x = top_jointbm0t_x + Real(2.0) * top_jointbm1vp_x;
   const Real top_jointda_z = state.z[0] * top_jointbm0b_x + (s0 * top_jointbm1app_x + (top_jointam2app_z - c0
       * top_jointbm1app_y));
-  const Real top_jointam2a_x = t271 * (top_jointax_x * t271);
-  const Real top_jointbm1vp_y = c0 * top_jointbm1vpp_y - s0 * top_jointbm1vpp_x;
-  const Real top_jointbm0t_y = top_jointbx1_x * state.z[0];
-  const Real top_jointbm0b_y = top_jointbm0t_y + Real(2.0) * top_jointbm1vp_y;
-  const Real t310 = t119 * top_jointda_z - (state.z[0] * top_jointbm0b_y + (s0 * top_jointbm1app_y -
-      (top_jointam2a_x - c0 * top_jointbm1app_x)));
-  const Real top_jointam2app_x = top_jointam2a_y * Real(0.0697564737441253);
-  const Real t322 = t161 * t310 - (Real(0.06992681194351041) * top_jointda_z - (top_jointam2app_x + q1r0_x *
-      top_jointbm1a_x - (q1r0_y * top_jointbm1a_y + q1r0_z * top_jointbm1a_z)));
-  const Real tie_rodbm1t_x = Real(0.07) * t233 + Real(0.02) * t238;
-  const Real tie_rodbm1t_y = Real(0.14) * t238 - Real(0.07) * t231;
-  const Real tie_rodbm1t_z = Real(0.14) * t233 + Real(0.02) * t231;
-  const Real tie_rodbm1vpp_y = q1r2_z * tie_rodbm1t_z - (q1r2_x * tie_rodbm1t_x - q1r2_y * tie_rodbm1t_y);
+  const Real tie_rodbm1t_x = Real(0.07) * t242 + Real(0.02) * t243;
+  const Real tie_rodbm1t_y = Real(0.14) * t243 - Real(0.07) * t241;
+  const Real tie_rodbm1t_z = Real(0.14) * t242 + Real(0.02) * t241;
   const Real tie_rodbm1vpp_x = q1r1_z * tie_rodbm1t_z + (q1r1_x * tie_rodbm1t_x + q1r1_y * tie_rodbm1t_y);
+  const Real tie_rodbm1vpp_y = q1r2_z * tie_rodbm1t_z - (q1r2_x * tie_rodbm1t_x - q1r2_y * tie_rodbm1t_y);
+  const Real tie_rodbm1vpp_z = q1r0_z * tie_rodbm1t_z - (q1r0_x * tie_rodbm1t_x + q1r0_y * tie_rodbm1t_y);
+  const Real tie_rodbm1vp_x = c0 * tie_rodbm1vpp_x + s0 * tie_rodbm1vpp_y;
   const Real tie_rodbm1vp_y = c0 * tie_rodbm1vpp_y - s0 * tie_rodbm1vpp_x;
+  const Real tie_rodbm0t_x = tie_rodbx1_y * state.z[0];
   const Real tie_rodbm0t_y = tie_rodbx1_x * state.z[0];
   const Real tie_rodbm0v_y = tie_rodbm1vp_y - tie_rodbm0t_y;
-  const Real tie_rodbm0b_y = tie_rodbm1vp_y + tie_rodbm0v_y;
-  const Real tie_rodbm1a_x = t233 * tie_rodbm1t_z + t238 * tie_rodbm1t_y;
-  const Real tie_rodbm1a_y = t231 * tie_rodbm1t_z + t238 * tie_rodbm1t_x;
-  const Real tie_rodbm1a_z = t231 * tie_rodbm1t_y - t233 * tie_rodbm1t_x;
-  const Real tie_rodbm1app_y = q1r2_z * tie_rodbm1a_z - (q1r2_x * tie_rodbm1a_x + q1r2_y * tie_rodbm1a_y);
-  const Real tie_rodbm1app_x = q1r1_z * tie_rodbm1a_z + (q1r1_x * tie_rodbm1a_x - q1r1_y * tie_rodbm1a_y);
-  const Real derivative_2 = c * model.c3;
-  const Real tie_rodda_y = state.z[0] * tie_rodbm0b_y + (s0 * tie_rodbm1app_y - (derivative_2 - c0 *
-      tie_rodbm1app_x));
-  const Real tie_rodbm1vp_x = c0 * tie_rodbm1vpp_x + s0 * tie_rodbm1vpp_y;
-  const Real tie_rodbm0t_x = tie_rodbx1_y * state.z[0];
   const Real tie_roddv_y = tie_rodbm1vp_x - (derivative - tie_rodbm0t_x);
-  const Real tie_rodbm1vpp_z = q1r0_z * tie_rodbm1t_z - (q1r0_x * tie_rodbm1t_x + q1r0_y * tie_rodbm1t_y);
+  const Real derivative_2 = c * model.c3;
+  const Real tie_rodbm1a_x = t242 * tie_rodbm1t_z + t243 * tie_rodbm1t_y;
+  const Real tie_rodbm1a_y = t241 * tie_rodbm1t_z + t243 * tie_rodbm1t_x;
+  const Real tie_rodbm1a_z = t241 * tie_rodbm1t_y - t242 * tie_rodbm1t_x;
+  const Real tie_rodbm1app_x = q1r1_z * tie_rodbm1a_z + (q1r1_x * tie_rodbm1a_x - q1r1_y * tie_rodbm1a_y);
+  const Real tie_rodbm1app_y = q1r2_z * tie_rodbm1a_z - (q1r2_x * tie_rodbm1a_x + q1r2_y * tie_rodbm1a_y);
   const Real tie_rodbm1app_z = q1r0_z * tie_rodbm1a_z - (q1r0_x * tie_rodbm1a_x - q1r0_y * tie_rodbm1a_y);
   const Real tie_rodbm0b_x = tie_rodbm0t_x + Real(2.0) * tie_rodbm1vp_x;
+  const Real tie_rodbm0b_y = tie_rodbm1vp_y + tie_rodbm0v_y;
   const Real tie_rodbm0a_y = state.z[0] * tie_rodbm0b_x - (c0 * tie_rodbm1app_y - s0 * tie_rodbm1app_x);
-  const Real t414 = t185 * (t169 * t322 - (t132 * t310 - Real(3.123475237772121) * (tie_rodd_y * tie_rodda_y +
+  const Real tie_rodda_y = state.z[0] * tie_rodbm0b_y + (s0 * tie_rodbm1app_y - (derivative_2 - c0 *
+      tie_rodbm1app_x));
+  const Real t396 = t171 * top_jointda_z - (state.z[0] * top_jointbm0b_y + (s0 * top_jointbm1app_y -
+      (top_jointam2a_x - c0 * top_jointbm1app_x)));
+  const Real t403 = t188 * t396 - (Real(0.06992681194351041) * top_jointda_z - (top_jointam2app_x + q1r0_x *
+      top_jointbm1a_x - (q1r0_y * top_jointbm1a_y + q1r0_z * top_jointbm1a_z)));
+  const Real t414 = t206 * (t201 * t403 - (t195 * t396 - Real(3.123475237772121) * (tie_rodd_y * tie_rodda_y +
       (tie_rodd_z * tie_rodbm0a_y - (tie_rodbm1vpp_z * tie_rodbm1vpp_z + tie_rodd_x * tie_rodbm1app_z +
       (tie_rodbm0v_y * tie_rodbm0v_y + tie_roddv_y * tie_roddv_y))))));
-  const Real t417 = t168 * (t322 - t171 * t414);
+  const Real t417 = t200 * (t403 - t194 * t414);
+  const Real t422 = t187 * (t177 * t417 - (t396 - t181 * t414));
+  const Real h1at1_x = q1r1_y * Real(1.6) - q1r1_z * Real(3.84);
+  const Real h1at1_y = q1r2_y * Real(1.6) - q1r2_z * Real(3.84);
+  const Real S1at1r0_y = q1r1_y * Real(0.33) - q1r1_z * Real(0.192);
+  const Real S1at1r0_z = q1r1_z * Real(1.1108) - q1r1_y * Real(0.192);
+  const Real S1at1r1_y = q1r2_y * Real(0.33) - q1r2_z * Real(0.192);
+  const Real S1at1r1_z = q1r2_z * Real(1.1108) - q1r2_y * Real(0.192);
+  const Real p_1_1f_x = q1r1_z * Real(1.6) + q1r1_y * Real(3.84);
+  const Real p_1_1f_y = q1r2_z * Real(1.6) + q1r2_y * Real(3.84);
+  const Real p_1_1n_z = Real(0.34) * p_1_1f_y - (Real(0.02) * p_1_1f_x - q1r0_x * Real(1.4408));
+  const Real t481 = q1r1_x * Real(0.0768) + q1r2_x * Real(1.3056);
+  const Real p_2_1n_z = t481 - (q1r0_z * Real(0.192) - q1r0_y * Real(1.7608));
+  const Real p_3_1n_z = t481 * Real(0.4166666666666667) + (q1r0_y * Real(0.192) - q1r0_z * Real(0.98));
+  const Real h2b_x = c2 * Real(0.275) - s2 * Real(0.025);
+  const Real h1c_x = h1at1_x - Real(11.73);
+  const Real h1c_y = h1at1_y - Real(0.64);
+  const Real h0b_x = c0 * h1c_x + s0 * h1c_y;
   const Real w1p_x = q1r0_x * state.z[0];
-  const Real ru1_x = t231 + Real(2.0) * w1p_x;
-  const Real rSu1_x = Real(0.65) * ru1_x;
   const Real w1p_y = q1r0_y * state.z[0];
-  const Real ru1_y = t233 + Real(2.0) * w1p_y;
   const Real w1p_z = q1r0_z * state.z[0];
-  const Real ru1_z = t238 + Real(2.0) * w1p_z;
-  const Real rSu1_y = Real(0.33) * ru1_y + Real(0.192) * ru1_z;
-  const Real wheel_centerx1p_x = Real(0.34) - q1r1_x * Real(0.01) + (q1r1_z * Real(0.12) - q1r1_y *
-      Real(0.06));
-  const Real wheel_centerx1p_y = Real(0.02) + q1r2_x * Real(0.01) + (q1r2_z * Real(0.12) - q1r2_y *
-      Real(0.06));
-  const Real expression_4 = s0 * wheel_centerx1p_x - (c0 * wheel_centerx1p_y + (input.u[0] +
-      Real(0.11750000000000002)));
-  const Real expression_5 = expression_4 * model.tyre;
-  const Real tyre_forcef1_y = top_joints2bf1_y * expression_5;
-  const Real tyre_forcef1_x = top_joints2bf1_x * expression_5;
-  const Real ren1_z = t417 * Real(0.192) - (t414 * Real(0.98) - (t233 * rSu1_x - (t231 * rSu1_y - (Real(0.01)
-      * tyre_forcef1_y + Real(0.06) * tyre_forcef1_x))));
-  const Real rSu1_z = Real(1.1108) * ru1_z + Real(0.192) * ru1_y;
-  const Real tyre_forcef1_z = top_joints2bf1_z * expression_5;
-  const Real ren1_y = t417 * Real(1.7608) - (t414 * Real(0.192) - (t238 * rSu1_x - (t231 * rSu1_z +
-      (Real(0.01) * tyre_forcef1_z - Real(0.12) * tyre_forcef1_x))));
-  const Real rL0a_x = s0 * Real(9.81);
-  const Real rL0w22 = state.z[0] * state.z[0];
-  const Real ra1o_x = rL0a_x - Real(0.34) * rL0w22;
-  const Real rL0a_y = c0 * Real(9.81);
-  const Real ra1o_y = rL0a_y + Real(0.02) * rL0w22;
-  const Real ra1_x = q1r1_x * ra1o_x + q1r2_x * ra1o_y;
-  const Real rK1_z = Real(1.1108) * w1p_z + Real(0.192) * w1p_y;
-  const Real rK1_x = Real(0.65) * w1p_x;
-  const Real rQ1_1 = ren1_y + (Real(3.84) * ra1_x - (w1p_x * rK1_z - w1p_z * rK1_x));
-  const Real rK1_y = Real(0.33) * w1p_y + Real(0.192) * w1p_z;
-  const Real rQ1_2 = ren1_z + (Real(1.6) * ra1_x - (w1p_x * rK1_y - w1p_y * rK1_x));
   const Real strutbx_x = c0 * Real(0.22);
-  const Real strutd_y = strutbx_x - Real(0.10000000000000003);
   const Real strutbx_y = s0 * Real(0.22);
+  const Real strutd_y = strutbx_x - Real(0.10000000000000003);
   const Real strutd_z = strutbx_y - Real(0.41000000000000003);
   const Real strut_ll = strutd_z * strutd_z + (strutd_y * strutd_y + Real(1e-18));
   const Real strut_l = detail::square_root(strut_ll);
@@ -1124,45 +1110,59 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real strut_e = strut_l - model.free_length;
   const Real strut_T = strut_e * model.stiffness - strut_rate * model.damping;
   const Real strut_Tl = strut_T / strut_l;
-  const Real h1at1_x = q1r1_y * Real(1.6) - q1r1_z * Real(3.84);
-  const Real h1c_x = h1at1_x - Real(11.73);
-  const Real h1at1_y = q1r2_y * Real(1.6) - q1r2_z * Real(3.84);
-  const Real h1c_y = h1at1_y - Real(0.64);
-  const Real h0b_x = c0 * h1c_x + s0 * h1c_y;
+  const Real wheel_centerx1p_x = Real(0.34) - q1r1_x * Real(0.01) + (q1r1_z * Real(0.12) - q1r1_y *
+      Real(0.06));
+  const Real wheel_centerx1p_y = Real(0.02) + q1r2_x * Real(0.01) + (q1r2_z * Real(0.12) - q1r2_y *
+      Real(0.06));
+  const Real expression_4 = s0 * wheel_centerx1p_x - (c0 * wheel_centerx1p_y + (input.u[0] +
+      Real(0.11750000000000002)));
+  const Real expression_5 = expression_4 * model.tyre;
+  const Real tyre_forcef1_x = top_joints2bf1_x * expression_5;
+  const Real tyre_forcef1_y = top_joints2bf1_y * expression_5;
+  const Real tyre_forcef1_z = top_joints2bf1_z * expression_5;
   const Real rQp0 = h0b_x * Real(9.81);
-  const Real t580 = t131 * (t144 * t417 - (t310 - t178 * t414));
-  const Real ren1_x = t580 * Real(1.4408) - (t238 * rSu1_y - (t233 * rSu1_z + (Real(0.12) * tyre_forcef1_y +
-      Real(0.06) * tyre_forcef1_z)));
-  const Real ra1_z = q1r1_z * ra1o_x - q1r2_z * ra1o_y;
+  const Real rL0a_x = s0 * Real(9.81);
+  const Real rL0a_y = c0 * Real(9.81);
+  const Real rL0w22 = state.z[0] * state.z[0];
+  const Real ra1o_x = rL0a_x - Real(0.34) * rL0w22;
+  const Real ra1o_y = rL0a_y + Real(0.02) * rL0w22;
+  const Real ra1_x = q1r1_x * ra1o_x + q1r2_x * ra1o_y;
   const Real ra1_y = q1r1_y * ra1o_x - q1r2_y * ra1o_y;
-  const Real rQ1_0 = ren1_x - (Real(3.84) * ra1_y + (Real(1.6) * ra1_z - (w1p_y * rK1_z - w1p_z * rK1_y)));
-  const Real rdn2_z = (top_joints2bm_x * t580 - (top_joints2bm_y * t417 - (top_jointda_z - top_joints2bm_z *
-      t414))) * (t118 * Real(0.0505));
-  const Real h2b_x = c2 * Real(0.275) - s2 * Real(0.025);
-  const Real rQp2 = h2b_x * Real(9.786103333048876);
-  const Real rQ2_0 = rQp2 - rdn2_z;
+  const Real ra1_z = q1r1_z * ra1o_x - q1r2_z * ra1o_y;
+  const Real rK1_x = Real(0.65) * w1p_x;
+  const Real rK1_y = Real(0.33) * w1p_y + Real(0.192) * w1p_z;
+  const Real rK1_z = Real(1.1108) * w1p_z + Real(0.192) * w1p_y;
+  const Real ru1_x = t241 + Real(2.0) * w1p_x;
+  const Real ru1_y = t242 + Real(2.0) * w1p_y;
+  const Real ru1_z = t243 + Real(2.0) * w1p_z;
+  const Real rSu1_x = Real(0.65) * ru1_x;
+  const Real rSu1_y = Real(0.33) * ru1_y + Real(0.192) * ru1_z;
+  const Real rSu1_z = Real(1.1108) * ru1_z + Real(0.192) * ru1_y;
   const Real ruh1 = Real(1.6) * ru1_y + Real(3.84) * ru1_z;
-  const Real ref1_x = t417 * Real(3.84) - (t414 * Real(1.6) - (tyre_forcef1_x - t231 * ruh1));
-  const Real ruw1 = t231 * ru1_x + (t233 * ru1_y + t238 * ru1_z);
-  const Real ref1_y = t580 * Real(3.84) - (Real(1.6) * ruw1 - (tyre_forcef1_y + t233 * ruh1));
-  const Real ref1_z = t580 * Real(1.6) + (Real(3.84) * ruw1 + (tyre_forcef1_z - t238 * ruh1));
+  const Real ruw1 = t241 * ru1_x + (t242 * ru1_y + t243 * ru1_z);
+  const Real rQp2 = h2b_x * Real(9.786103333048876);
+  const Real rdn2_z = (top_joints2bm_x * t422 - (top_joints2bm_y * t417 - (top_jointda_z - top_joints2bm_z *
+      t414))) * (t170 * Real(0.0505));
+  const Real ref1_x = t417 * Real(3.84) - (t414 * Real(1.6) - (tyre_forcef1_x - t241 * ruh1));
+  const Real ref1_y = t422 * Real(3.84) - (Real(1.6) * ruw1 - (tyre_forcef1_y + t242 * ruh1));
+  const Real ref1_z = t422 * Real(1.6) + (Real(3.84) * ruw1 + (tyre_forcef1_z - t243 * ruh1));
+  const Real ren1_x = t422 * Real(1.4408) - (t243 * rSu1_y - (t242 * rSu1_z + (Real(0.12) * tyre_forcef1_y +
+      Real(0.06) * tyre_forcef1_z)));
+  const Real ren1_y = t417 * Real(1.7608) - (t414 * Real(0.192) - (t243 * rSu1_x - (t241 * rSu1_z +
+      (Real(0.01) * tyre_forcef1_z - Real(0.12) * tyre_forcef1_x))));
+  const Real ren1_z = t417 * Real(0.192) - (t414 * Real(0.98) - (t242 * rSu1_x - (t241 * rSu1_y - (Real(0.01)
+      * tyre_forcef1_y + Real(0.06) * tyre_forcef1_x))));
   const Real rf1p_x = q1r1_z * ref1_z - (q1r1_x * ref1_x - q1r1_y * ref1_y);
   const Real rf1p_y = q1r2_z * ref1_z + (q1r2_x * ref1_x + q1r2_y * ref1_y);
-  const Real p_1_1f_y = q1r2_z * Real(1.6) + q1r2_y * Real(3.84);
-  const Real p_1_1f_x = q1r1_z * Real(1.6) + q1r1_y * Real(3.84);
-  const Real p_1_1n_z = Real(0.34) * p_1_1f_y - (Real(0.02) * p_1_1f_x - q1r0_x * Real(1.4408));
-  const Real t691 = q1r1_x * Real(0.0768) + q1r2_x * Real(1.3056);
-  const Real p_2_1n_z = t691 - (q1r0_z * Real(0.192) - q1r0_y * Real(1.7608));
-  const Real p_3_1n_z = t691 * Real(0.4166666666666667) + (q1r0_y * Real(0.192) - q1r0_z * Real(0.98));
-  const Real S1at1r0_y = q1r1_y * Real(0.33) - q1r1_z * Real(0.192);
-  const Real S1at1r0_z = q1r1_z * Real(1.1108) - q1r1_y * Real(0.192);
-  const Real S1at1r1_y = q1r2_y * Real(0.33) - q1r2_z * Real(0.192);
-  const Real S1at1r1_z = q1r2_z * Real(1.1108) - q1r2_y * Real(0.192);
-  zdot[0] = (t270 * rQ2_0 - (t222 * rQ1_0 + (q1r0_x * ren1_x - (q1r0_z * ren1_z - t217 * rQ1_1 + (t214 * rQ1_2
+  const Real rQ1_0 = ren1_x - (Real(3.84) * ra1_y + (Real(1.6) * ra1_z - (w1p_y * rK1_z - w1p_z * rK1_y)));
+  const Real rQ1_1 = ren1_y + (Real(3.84) * ra1_x - (w1p_x * rK1_z - w1p_z * rK1_x));
+  const Real rQ1_2 = ren1_z + (Real(1.6) * ra1_x - (w1p_x * rK1_y - w1p_y * rK1_x));
+  const Real rQ2_0 = rQp2 - rdn2_z;
+  zdot[0] = (t232 * rQ2_0 - (t225 * rQ1_0 + (q1r0_x * ren1_x - (q1r0_z * ren1_z - t220 * rQ1_1 + (t217 * rQ1_2
       - (q1r0_y * ren1_y - (strut_Tl * (strutbx_y * strutd_y) - (strut_Tl * (strutbx_x * strutd_z) -
-      rQp0))))))) + (Real(0.02) * rf1p_x - Real(0.34) * rf1p_y)) / (t270 * (t270 * Real(0.0505)) + (t222 *
-      (t222 * Real(1.4408) + (p_1_1n_z + p_1_1n_z)) + (t217 * (t217 * Real(1.7608) - (t214 * Real(0.192) -
-      (p_2_1n_z + p_2_1n_z))) - (t214 * (t217 * Real(0.192) - (t214 * Real(0.98) - (p_3_1n_z + p_3_1n_z))) -
+      rQp0))))))) + (Real(0.02) * rf1p_x - Real(0.34) * rf1p_y)) / (t232 * (t232 * Real(0.0505)) + (t225 *
+      (t225 * Real(1.4408) + (p_1_1n_z + p_1_1n_z)) + (t220 * (t220 * Real(1.7608) - (t217 * Real(0.192) -
+      (p_2_1n_z + p_2_1n_z))) - (t217 * (t220 * Real(0.192) - (t217 * Real(0.98) - (p_3_1n_z + p_3_1n_z))) -
       ((q1r1_x * q1r1_x + q1r2_x * q1r2_x) * Real(0.65) + Real(3.9165000000000005) + (q1r1_y * S1at1r0_y +
       q1r1_z * S1at1r0_z) + (q1r2_y * S1at1r1_y + q1r2_z * S1at1r1_z - (h1at1_x * Real(0.68) + h1at1_y *
       Real(0.04))))))));

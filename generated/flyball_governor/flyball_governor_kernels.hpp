@@ -488,27 +488,27 @@ template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept {
   Real s0, c0, s2, c2;
   detail::sine_cosine2(state.y[0], s0, c0, state.y[2], s2, c2);
-  const Real link1bx_y = c2 * Real(0.5);
-  const Real link1d_y = s0 * link1bx_y;
+  Real s3, c3;
+  detail::sine_cosine(state.y[3], s3, c3);
+  const Real h1r_z = state.y[1] * Real(3.000000000000001);
+  const Real hg0_z = (s2 + s3) * Real(5.15) - (h1r_z + Real(10.75));
   const Real link1bx_x = s2 * Real(0.5);
-  const Real t12 = state.y[1] - Real(1.0);
-  const Real link1d_z = link1bx_x + t12;
+  const Real link1bx_y = c2 * Real(0.5);
   const Real link1d_x = c0 * link1bx_y;
+  const Real link1d_y = s0 * link1bx_y;
+  const Real t24 = state.y[1] - Real(1.0);
+  const Real link1d_z = link1bx_x + t24;
   const Real link1_ll = link1d_x * link1d_x + Real(1e-18) + (link1d_y * link1d_y + link1d_z * link1d_z);
   const Real link1_l = detail::square_root(link1_ll);
   const Real link1_e = Real(0.5) - link1_l;
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
-  const Real link2bx_y = c3 * Real(0.5);
-  const Real link2d_y = s0 * link2bx_y;
   const Real link2bx_x = s3 * Real(0.5);
-  const Real link2d_z = t12 + link2bx_x;
+  const Real link2bx_y = c3 * Real(0.5);
   const Real link2d_x = c0 * link2bx_y;
+  const Real link2d_y = s0 * link2bx_y;
+  const Real link2d_z = t24 + link2bx_x;
   const Real link2_ll = Real(1e-18) + link2d_x * link2d_x + (link2d_y * link2d_y + link2d_z * link2d_z);
   const Real link2_l = detail::square_root(link2_ll);
   const Real link2_e = Real(0.5) - link2_l;
-  const Real h1r_z = state.y[1] * Real(3.000000000000001);
-  const Real hg0_z = (s2 + s3) * Real(5.15) - (h1r_z + Real(10.75));
   const Real V = hg0_z * Real(9.81) - (link1_e * link1_e + link2_e * link2_e) * model.c2;
   return -V;
 }

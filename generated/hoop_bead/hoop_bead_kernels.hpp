@@ -268,8 +268,8 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[1]) noe
   Real s, c;
   detail::sine_cosine(state.y[0], s, c);
   const Real expression = s * model.radius;
-  const Real zz_1 = state.z[0] * state.z[0];
   const Real derivative = c * model.radius;
+  const Real zz_1 = state.z[0] * state.z[0];
   const Real kQ1_0 = (derivative * (expression * zz_1) - derivative * (expression * (zz_1 + model.kL0w22))) *
       Real(0.1);
   k[0] = -kQ1_0;
@@ -288,11 +288,11 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
     noexcept {
   Real s, c;
   detail::sine_cosine(state.y[0], s, c);
+  const Real expression = s * model.radius;
   const Real derivative = c * model.radius;
+  const Real push1_0 = state.z[0] * Real(0.01);
   const Real zz_1 = state.z[0] * state.z[0];
   const Real bdf1t_z = derivative * (zz_1 * Real(0.1));
-  const Real expression = s * model.radius;
-  const Real push1_0 = state.z[0] * Real(0.01);
   const Real b_0 = expression * (bdf1t_z + Real(0.9810000000000001)) + (push1_0 - derivative * (expression *
       (Real(0.1) * (zz_1 + model.kL0w22))));
   const Real y_0 = b_0 * model.c4;
@@ -304,12 +304,12 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
     (&tau)[1]) noexcept {
   Real s, c;
   detail::sine_cosine(state.y[0], s, c);
-  const Real derivative = c * model.radius;
-  const Real ala1zz = state.z[0] * state.z[0];
   const Real expression = s * model.radius;
-  const Real ala1L_z = derivative * ala1zz + (expression * zdot[0] + Real(9.81));
-  const Real ala1L_x = derivative * zdot[0] - expression * (ala1zz + model.kL0w22);
+  const Real derivative = c * model.radius;
   const Real push1_0 = state.z[0] * Real(0.01);
+  const Real ala1zz = state.z[0] * state.z[0];
+  const Real ala1L_x = derivative * zdot[0] - expression * (ala1zz + model.kL0w22);
+  const Real ala1L_z = derivative * ala1zz + (expression * zdot[0] + Real(9.81));
   const Real tau_1_0 = push1_0 + (expression * ala1L_z + derivative * ala1L_x) * Real(0.1);
   tau[0] = tau_1_0;
 }

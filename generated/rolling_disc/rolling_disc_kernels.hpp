@@ -173,105 +173,105 @@ void q_bar(const Model<Real>& model, const State<Real>&, const Input<Real>&, Rea
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Real (&zdot)[6])
     noexcept {
+  const Real q0d1 = state.y[4] * Real(2.0);
   const Real q0d3 = Real(2.0) * state.y[6];
   const Real q023 = q0d3 * state.y[5];
-  const Real q0d1 = state.y[4] * Real(2.0);
   const Real q001 = q0d1 * state.y[3];
   const Real q0r2_y = q023 + q001;
   const Real t12 = q0r2_y * q0r2_y - Real(1.0);
   const Real groundup = detail::square_root(-t12);
-  const Real groundc_z = model.radius * (t12 / groundup);
-  const Real q033 = state.y[6] * q0d3;
+  const Real t16 = state.y[3] * Real(0.5);
+  const Real t17 = state.y[4] * Real(0.5);
+  const Real t18 = state.y[5] * Real(0.5);
+  const Real t19 = state.y[6] * Real(0.5);
+  const Real t20 = q0r2_y + q0r2_y;
+  const Real t21 = Real(1.0) / groundup;
+  const Real t22 = Real(0.5) * t21;
+  const Real t24 = t22 * model.radius;
+  const Real t25 = t20 * t24;
+  const Real q0r2_x = Real(2.0) * (state.y[5] * state.y[3] - q0d1 * t19);
+  const Real t37 = t25 * (state.y[5] * state.y[5] - state.y[3] * state.y[3] - (q0d3 * t19 - q0d1 * t17));
+  const Real t38 = t25 * q0r2_x;
   const Real q0d2 = Real(2.0) * state.y[5];
+  const Real q011 = state.y[4] * q0d1;
   const Real q022 = state.y[5] * q0d2;
-  const Real q0r0_x = q033 - (Real(1.0) - q022);
-  const Real t24 = q0r2_y + q0r2_y;
-  const Real t25 = Real(1.0) / groundup;
-  const Real t27 = Real(0.5) * t25;
-  const Real t28 = t27 * model.radius;
-  const Real t29 = t24 * t28;
+  const Real q033 = state.y[6] * q0d3;
   const Real q012 = state.y[4] * q0d2;
-  const Real q003 = q0d3 * state.y[3];
-  const Real q0r0_y = q012 - q003;
-  const Real groundc_x = t29 * q0r0_y;
-  const Real t34 = state.y[6] * Real(0.5);
-  const Real q0r2_x = Real(2.0) * (state.y[5] * state.y[3] - q0d1 * t34);
-  const Real grounds2bn0_x = groundc_z * q0r0_x - q0r2_x * groundc_x;
-  const Real t42 = grounds2bn0_x * model.c6;
-  const Real t44 = state.y[4] * Real(0.5);
-  const Real t51 = t29 * (state.y[5] * state.y[5] - state.y[3] * state.y[3] - (q0d3 * t34 - q0d1 * t44));
   const Real q013 = state.y[4] * q0d3;
   const Real q002 = state.y[3] * q0d2;
-  const Real q0r0_z = q013 + q002;
-  const Real q011 = state.y[4] * q0d1;
-  const Real t58 = Real(1.0) - q011;
-  const Real q0r2_z = q022 - t58;
-  const Real grounds2bn0_z = groundc_z * q0r0_z + q0r2_z * groundc_x;
-  const Real t62 = grounds2bn0_z * model.c6;
-  const Real t63 = t29 * q0r2_x;
-  const Real t65 = t51 * t42 + t63 * t62;
-  const Real t72 = Real(1.0) / (model.c6 * (t51 * t51 + t63 * t63) + model.c8);
-  const Real t73 = t65 * t72;
+  const Real q003 = q0d3 * state.y[3];
   const Real q0r1_x = q012 + q003;
-  const Real q0r1_y = q033 - t58;
-  const Real groundc_y = t29 * q0r1_y;
-  const Real grounds1bn0_x = q0r1_x * groundc_z - q0r2_x * groundc_y;
-  const Real t80 = grounds1bn0_x * model.c6;
+  const Real t48 = Real(1.0) - q011;
+  const Real q0r1_y = q033 - t48;
   const Real q0r1_z = q023 - q001;
+  const Real q0r2_z = q022 - t48;
+  const Real groundc_y = t25 * q0r1_y;
+  const Real groundc_z = model.radius * (t12 / groundup);
+  const Real grounds1bn0_x = q0r1_x * groundc_z - q0r2_x * groundc_y;
+  const Real grounds1bn0_y = t21 * (model.radius * q0r1_y);
   const Real grounds1bn0_z = q0r1_z * groundc_z - q0r2_z * groundc_y;
-  const Real t86 = grounds1bn0_z * model.c6;
-  const Real t88 = t51 * t80 - t63 * t86;
-  const Real grounds1bn0_y = t25 * (model.radius * q0r1_y);
-  const Real grounds2bn0_y = t25 * (model.radius * q0r0_y);
-  const Real t97 = grounds2bn0_y * model.c7;
-  const Real t101 = t88 * t73 + (grounds1bn0_z * t62 - (grounds1bn0_x * t42 + grounds1bn0_y * t97));
-  const Real t102 = t88 * t72;
-  const Real t113 = Real(1.0) / (t88 * t102 - (grounds1bn0_z * t86 + (grounds1bn0_x * t80 + (grounds1bn0_y *
+  const Real q0r0_x = q033 - (Real(1.0) - q022);
+  const Real q0r0_y = q012 - q003;
+  const Real q0r0_z = q013 + q002;
+  const Real groundc_x = t25 * q0r0_y;
+  const Real grounds2bn0_x = groundc_z * q0r0_x - q0r2_x * groundc_x;
+  const Real grounds2bn0_y = t21 * (model.radius * q0r0_y);
+  const Real grounds2bn0_z = groundc_z * q0r0_z + q0r2_z * groundc_x;
+  const Real t82 = grounds1bn0_x * model.c6;
+  const Real t83 = grounds1bn0_z * model.c6;
+  const Real t86 = t37 * t82 - t38 * t83;
+  const Real t92 = grounds2bn0_x * model.c6;
+  const Real t93 = grounds2bn0_y * model.c7;
+  const Real t94 = grounds2bn0_z * model.c6;
+  const Real t97 = t37 * t92 + t38 * t94;
+  const Real t108 = Real(1.0) / (model.c6 * (t37 * t37 + t38 * t38) + model.c8);
+  const Real t109 = t86 * t108;
+  const Real t116 = t97 * t108;
+  const Real t120 = t86 * t116 + (grounds1bn0_z * t94 - (grounds1bn0_x * t92 + grounds1bn0_y * t93));
+  const Real t122 = Real(1.0) / (t86 * t109 - (grounds1bn0_z * t83 + (grounds1bn0_x * t82 + (grounds1bn0_y *
       (grounds1bn0_y * model.c7) + model.c9))));
-  const Real t114 = t101 * t113;
-  const Real t126 = Real(1.0) / (t101 * t114 - (t65 * t73 - (grounds2bn0_z * t62 + (grounds2bn0_x * t42 +
-      (grounds2bn0_y * t97 + model.c10)))));
-  const Real t127 = state.y[3] * Real(0.5);
-  const Real t133 = state.y[5] * Real(0.5);
-  const Real t136 = t133 * state.z[5] + (t127 * state.z[3] - t34 * state.z[4]);
-  const Real t142 = t127 * state.z[5] - (t133 * state.z[3] - t44 * state.z[4]);
-  const Real t149 = t44 * state.z[5] - (t34 * state.z[3] + t127 * state.z[4]);
-  const Real t150 = Real(2.0) * state.y[3];
-  const Real t156 = t34 * state.z[5] + (t44 * state.z[3] + t133 * state.z[4]);
-  const Real t162 = t24 * t27;
-  const Real t169 = t136 * t150 + q0d2 * t142 - (q0d3 * t149 + q0d1 * t156);
-  const Real t181 = t136 * (q0d1 + q0d1);
+  const Real t123 = t120 * t122;
+  const Real t131 = Real(1.0) / (t120 * t123 - (t97 * t116 - (grounds2bn0_z * t94 + (grounds2bn0_x * t92 +
+      (grounds2bn0_y * t93 + model.c10)))));
+  const Real t136 = t19 * state.z[5] + (t17 * state.z[3] + t18 * state.z[4]);
+  const Real t141 = t18 * state.z[5] + (t16 * state.z[3] - t19 * state.z[4]);
+  const Real t146 = t17 * state.z[5] - (t19 * state.z[3] + t16 * state.z[4]);
+  const Real t151 = t16 * state.z[5] - (t18 * state.z[3] - t17 * state.z[4]);
+  const Real t153 = Real(2.0) * state.y[3];
+  const Real t157 = t141 * (q0d1 + q0d1);
+  const Real t175 = t141 * t153 + q0d2 * t151 - (q0d3 * t146 + q0d1 * t136);
+  const Real t187 = t20 * t22;
+  const Real t188 = t21 * t187;
+  const Real t197 = q0r2_x * state.z[3] + (q0r2_z * state.z[5] - q0r2_y * state.z[4]);
+  const Real t215 = t175 * (t187 * (t21 * groundc_z) + (t25 + t25));
   const Real rdn0_x = model.rdS00 * (state.z[4] * state.z[5]);
-  const Real t193 = model.c6 * rdn0_x;
   const Real rdn0_z = model.rdS00 * (state.z[3] * state.z[4]);
-  const Real t197 = model.c6 * rdn0_z;
-  const Real t200 = t51 * t193 + t63 * t197 + (t29 * (state.z[3] * (t181 - t149 * (q0d2 + q0d2))) + model.c12
-      + (t29 * (state.z[5] * (q0d3 * t136 + q0d1 * t142 + (t149 * t150 + q0d2 * t156))) - t169 * (t28 *
-      (Real(2.0) * t169) + t162 * (t27 * (t25 * (t169 * (t24 * model.radius)))))));
-  const Real t202 = t25 * t162;
-  const Real t215 = q0r2_x * state.z[3] + (q0r2_z * state.z[5] - q0r2_y * state.z[4]);
-  const Real t221 = t169 * (t162 * (t25 * groundc_z) + (t29 + t29));
-  const Real t233 = t102 * t200 + (t215 * (t169 * (grounds1bn0_y + groundc_y * t202) + t29 * (t181 + t142 *
-      (q0d3 + q0d3))) + (grounds1bn0_z * t197 + ((q0r1_y * state.z[4] - (q0r1_x * state.z[3] + q0r1_z *
-      state.z[5])) * t221 - grounds1bn0_x * t193)));
-  const Real t262 = t126 * (t114 * t233 - (t73 * t200 + (t215 * (t29 * (q0d2 * t136 - t142 * t150 - (q0d1 *
-      t149 - q0d3 * t156)) + t169 * (grounds2bn0_y + groundc_x * t202)) - (grounds2bn0_z * t197 + ((q0r0_x *
-      state.z[3] - (q0r0_z * state.z[5] + q0r0_y * state.z[4])) * t221 + grounds2bn0_x * t193)))));
-  const Real t265 = t113 * t233 - t114 * t262;
-  const Real t270 = t102 * t265 - (t72 * t200 - t73 * t262);
+  const Real t236 = model.c6 * rdn0_x;
+  const Real t237 = model.c6 * rdn0_z;
+  const Real t249 = t37 * t236 + t38 * t237 + (t25 * (state.z[3] * (t157 - t146 * (q0d2 + q0d2))) + model.c12
+      + (t25 * (state.z[5] * (q0d3 * t141 + q0d1 * t151 + (t146 * t153 + q0d2 * t136))) - t175 * (t24 *
+      (Real(2.0) * t175) + t187 * (t22 * (t21 * (t175 * (t20 * model.radius)))))));
+  const Real t254 = t109 * t249 + (t197 * (t175 * (grounds1bn0_y + groundc_y * t188) + t25 * (t157 + t151 *
+      (q0d3 + q0d3))) + (grounds1bn0_z * t237 + ((q0r1_y * state.z[4] - (q0r1_x * state.z[3] + q0r1_z *
+      state.z[5])) * t215 - grounds1bn0_x * t236)));
+  const Real t264 = t131 * (t123 * t254 - (t116 * t249 + (t197 * (t25 * (q0d2 * t141 - t151 * t153 - (q0d1 *
+      t146 - q0d3 * t136)) + t175 * (grounds2bn0_y + groundc_x * t188)) - (grounds2bn0_z * t237 + ((q0r0_x *
+      state.z[3] - (q0r0_z * state.z[5] + q0r0_y * state.z[4])) * t215 + grounds2bn0_x * t236)))));
+  const Real t266 = t122 * t254 - t123 * t264;
+  const Real t270 = t109 * t266 - (t108 * t249 - t116 * t264);
   const Real t272 = t270 * Real(4.9999999999999995e-11);
-  const Real t276 = t265 * Real(1.5000000000000002e-10) + t102 * t272;
-  const Real t283 = t126 * (t114 * t276 - (t262 * Real(2.5e-10) + t73 * t272));
-  const Real t286 = t113 * t276 - t114 * t283;
-  const Real t287 = t265 - t286;
-  const Real t291 = t262 - t283;
-  const Real t299 = t102 * t286 + (t73 * t283 - (t270 + t72 * t272));
-  zdot[0] = -(t287 * model.c13);
-  zdot[1] = -(t291 * model.c13);
-  zdot[2] = (t299 - model.q_2) * model.c13;
-  zdot[3] = -(model.c6 * (t51 * t299 + (grounds1bn0_x * t287 - (rdn0_x - grounds2bn0_x * t291))));
-  zdot[4] = -(model.c7 * (grounds1bn0_y * t287 + grounds2bn0_y * t291));
-  zdot[5] = model.c6 * (t63 * t299 - (grounds1bn0_z * t287 + (rdn0_z - grounds2bn0_z * t291)));
+  const Real t278 = t266 * Real(1.5000000000000002e-10) + t109 * t272;
+  const Real t285 = t131 * (t123 * t278 - (t264 * Real(2.5e-10) + t116 * t272));
+  const Real t287 = t122 * t278 - t123 * t285;
+  const Real t292 = t109 * t287 + (t116 * t285 - (t270 + t108 * t272));
+  const Real t293 = t266 - t287;
+  const Real t294 = t264 - t285;
+  zdot[0] = -(t293 * model.c13);
+  zdot[1] = -(t294 * model.c13);
+  zdot[2] = (t292 - model.q_2) * model.c13;
+  zdot[3] = -(model.c6 * (t37 * t292 + (grounds1bn0_x * t293 - (rdn0_x - grounds2bn0_x * t294))));
+  zdot[4] = -(model.c7 * (grounds1bn0_y * t293 + grounds2bn0_y * t294));
+  zdot[5] = model.c6 * (t38 * t292 - (grounds1bn0_z * t293 + (rdn0_z - grounds2bn0_z * t294)));
 }
 
 template <class Real> JOURDAIN_FUNCTION

@@ -324,19 +324,19 @@ State<Real> initial_state(const Model<Real>&) noexcept {
 
 template <class Real> JOURDAIN_FUNCTION
 void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[3]) noexcept {
-  Real s0, c0, t4, t7;
-  detail::sine_cosine2(state.y[0], s0, c0, state.y[1], t4, t7);
-  const Real c1 = s0 * t4 - c0 * t7;
-  const Real piston_pinbx_x = c1 * Real(0.145);
+  Real s0, c0, t4, t5;
+  detail::sine_cosine2(state.y[0], s0, c0, state.y[1], t4, t5);
+  const Real s1 = c0 * t4 + s0 * t5;
+  const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.045);
+  const Real piston_pinbx_x = c1 * Real(0.145);
   const Real piston_pinbx1_x = r1_x - piston_pinbx_x;
-  const Real t15 = piston_pinbx1_x / piston_pinbx_x;
-  const Real s1 = c0 * t4 + s0 * t7;
-  const Real piston_pinbx_y = s1 * Real(0.145);
   const Real r1_y = s0 * Real(0.045);
+  const Real piston_pinbx_y = s1 * Real(0.145);
+  const Real t19 = piston_pinbx1_x / piston_pinbx_x;
   ydot[0] = state.z[0];
-  ydot[1] = t15 * state.z[0];
-  ydot[2] = -((piston_pinbx_y * t15 + (r1_y + piston_pinbx_y)) * state.z[0]);
+  ydot[1] = t19 * state.z[0];
+  ydot[2] = -((piston_pinbx_y * t19 + (r1_y + piston_pinbx_y)) * state.z[0]);
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -361,90 +361,90 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[1
 
 template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[1]) noexcept {
-  Real s0, c0, t3, t6;
-  detail::sine_cosine2(state.y[0], s0, c0, state.y[1], t3, t6);
-  const Real c1 = s0 * t3 - c0 * t6;
-  const Real piston_pinbx_x = c1 * Real(0.145);
+  Real s0, c0, t4, t5;
+  detail::sine_cosine2(state.y[0], s0, c0, state.y[1], t4, t5);
+  const Real s1 = c0 * t4 + s0 * t5;
+  const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.045);
+  const Real piston_pinbx_x = c1 * Real(0.145);
   const Real piston_pinbx1_x = r1_x - piston_pinbx_x;
-  const Real t15 = Real(1.0) / piston_pinbx_x;
-  const Real t16 = piston_pinbx1_x * t15;
-  const Real t18 = t16 * state.z[0];
-  const Real w1_z = state.z[0] + t18;
-  const Real zw_1 = t18 * (state.z[0] + w1_z);
-  const Real s1 = c0 * t3 + s0 * t6;
-  const Real h1b_y = s1 * Real(0.02475);
-  const Real h1b_x = c1 * Real(0.02475);
   const Real r1_y = s0 * Real(0.045);
   const Real piston_pinbx_y = s1 * Real(0.145);
-  const Real t38 = state.z[0] * (Real(0.045) * state.z[0]);
-  const Real t39 = s0 * t38;
-  const Real t41 = t15 * (t39 + w1_z * (piston_pinbx_y * w1_z));
-  const Real E1 = t6 * Real(0.00111375) + Real(0.00311375);
-  const Real t50 = c0 * t38;
-  k[0] = (t16 * t50 + piston_pinbx_y * t41) * ((piston_pinbx_y * t16 + (r1_y + piston_pinbx_y)) * Real(0.48))
-      + (t16 * (t41 * Real(0.00311375) - (t39 * h1b_x + t50 * h1b_y)) + (t41 * E1 + (zw_1 * (r1_x * h1b_y) +
+  const Real t20 = Real(1.0) / piston_pinbx_x;
+  const Real t21 = piston_pinbx1_x * t20;
+  const Real t26 = t21 * state.z[0];
+  const Real w1_z = state.z[0] + t26;
+  const Real t29 = state.z[0] * (Real(0.045) * state.z[0]);
+  const Real t30 = s0 * t29;
+  const Real t31 = c0 * t29;
+  const Real t36 = t20 * (t30 + w1_z * (piston_pinbx_y * w1_z));
+  const Real h1b_x = c1 * Real(0.02475);
+  const Real h1b_y = s1 * Real(0.02475);
+  const Real zw_1 = t26 * (state.z[0] + w1_z);
+  const Real E1 = t5 * Real(0.00111375) + Real(0.00311375);
+  k[0] = (t21 * t31 + piston_pinbx_y * t36) * ((piston_pinbx_y * t21 + (r1_y + piston_pinbx_y)) * Real(0.48))
+      + (t21 * (t36 * Real(0.00311375) - (t30 * h1b_x + t31 * h1b_y)) + (t36 * E1 + (zw_1 * (r1_x * h1b_y) +
       zw_1 * (r1_y * h1b_x))));
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>&, const State<Real>& state, const Input<Real>& input, Real (&q)[1]) noexcept {
-  Real s0, c0, t3, t6;
-  detail::sine_cosine2(state.y[0], s0, c0, state.y[1], t3, t6);
-  const Real c1 = s0 * t3 - c0 * t6;
-  const Real piston_pinbx_x = c1 * Real(0.145);
+  Real s0, c0, t4, t5;
+  detail::sine_cosine2(state.y[0], s0, c0, state.y[1], t4, t5);
+  const Real s1 = c0 * t4 + s0 * t5;
+  const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.045);
+  const Real piston_pinbx_x = c1 * Real(0.145);
   const Real piston_pinbx1_x = r1_x - piston_pinbx_x;
-  const Real t14 = piston_pinbx1_x / piston_pinbx_x;
-  const Real s1 = c0 * t3 + s0 * t6;
+  const Real r1_y = s0 * Real(0.045);
+  const Real piston_pinbx_y = s1 * Real(0.145);
+  const Real t19 = piston_pinbx1_x / piston_pinbx_x;
   const Real h1b_y = s1 * Real(0.02475);
   const Real h0b_y = s0 * Real(0.02475);
-  const Real piston_pinbx_y = s1 * Real(0.145);
-  const Real r1_y = s0 * Real(0.045);
   const Real q_2 = input.u[0] - Real(4.7088);
-  q[0] = -((t14 * h1b_y + (h1b_y + h0b_y)) * Real(9.81) + (input.u[1] - (piston_pinbx_y * t14 + (r1_y +
+  q[0] = -((t19 * h1b_y + (h1b_y + h0b_y)) * Real(9.81) + (input.u[1] - (piston_pinbx_y * t19 + (r1_y +
       piston_pinbx_y)) * q_2));
 }
 
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[1]) noexcept {
-  Real s0, c0, t3, t6;
-  detail::sine_cosine2(state.y[0], s0, c0, state.y[1], t3, t6);
-  const Real c1 = s0 * t3 - c0 * t6;
-  const Real piston_pinbx_x = c1 * Real(0.145);
+  Real s0, c0, t4, t5;
+  detail::sine_cosine2(state.y[0], s0, c0, state.y[1], t4, t5);
+  const Real s1 = c0 * t4 + s0 * t5;
+  const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.045);
+  const Real piston_pinbx_x = c1 * Real(0.145);
   const Real piston_pinbx1_x = r1_x - piston_pinbx_x;
-  const Real t15 = Real(1.0) / piston_pinbx_x;
-  const Real t16 = piston_pinbx1_x * t15;
-  const Real t18 = t16 * state.z[0];
-  const Real w1_z = state.z[0] + t18;
-  const Real s1 = c0 * t3 + s0 * t6;
+  const Real r1_y = s0 * Real(0.045);
   const Real piston_pinbx_y = s1 * Real(0.145);
-  const Real t27 = state.z[0] * (Real(0.045) * state.z[0]);
-  const Real t28 = s0 * t27;
-  const Real t30 = t15 * (t28 + w1_z * (piston_pinbx_y * w1_z));
+  const Real t20 = Real(1.0) / piston_pinbx_x;
+  const Real t21 = piston_pinbx1_x * t20;
+  const Real t24 = piston_pinbx_y * t21 + (r1_y + piston_pinbx_y);
+  const Real t26 = t21 * state.z[0];
+  const Real w1_z = state.z[0] + t26;
+  const Real t29 = state.z[0] * (Real(0.045) * state.z[0]);
+  const Real t30 = s0 * t29;
+  const Real t31 = c0 * t29;
+  const Real t35 = t20 * (t30 + w1_z * (piston_pinbx_y * w1_z));
   const Real h1b_x = c1 * Real(0.02475);
-  const Real zw_1 = t18 * (state.z[0] + w1_z);
   const Real h1b_y = s1 * Real(0.02475);
-  const Real rdf1_y = t30 * h1b_x - h1b_y * zw_1;
-  const Real rdn1_z = t30 * Real(0.00311375);
+  const Real D1 = t5 * Real(0.00111375);
+  const Real v1L_z = t21 * Real(0.00311375);
+  const Real T2 = (t24 * (t24 * Real(0.48)) + (t21 * v1L_z + (D1 + (D1 + model.c0)))) * Real(0.5) + (v1L_z +
+      t21 * D1);
   const Real h0b_y = s0 * Real(0.02475);
   const Real h0_y = h1b_y + h0b_y;
   const Real rQp0 = h0_y * Real(9.81);
-  const Real rdf1_x = t30 * h1b_y + h1b_x * zw_1;
-  const Real r1_y = s0 * Real(0.045);
-  const Real t56 = c0 * t27;
-  const Real ra1o_x = t56 - Real(9.81);
-  const Real rQ1_0 = rdn1_z - (t28 * h1b_x + h1b_y * ra1o_x);
-  const Real rdf2t_z = (piston_pinbx_y * t30 + t16 * t56) * Real(0.48);
+  const Real ra1o_x = t31 - Real(9.81);
+  const Real zw_1 = t26 * (state.z[0] + w1_z);
+  const Real rdf1_x = t35 * h1b_y + h1b_x * zw_1;
+  const Real rdf1_y = t35 * h1b_x - h1b_y * zw_1;
+  const Real rdn1_z = t35 * Real(0.00311375);
+  const Real rdf2t_z = (piston_pinbx_y * t35 + t21 * t31) * Real(0.48);
+  const Real rQ1_0 = rdn1_z - (t30 * h1b_x + h1b_y * ra1o_x);
   const Real tau_2_0 = rdf2t_z - (input.u[0] - Real(4.7088));
-  const Real t75 = piston_pinbx_y * t16 + (r1_y + piston_pinbx_y);
-  const Real v1L_z = t16 * Real(0.00311375);
-  const Real D1 = t6 * Real(0.00111375);
-  const Real T2 = (t75 * (t75 * Real(0.48)) + (t16 * v1L_z + (D1 + (D1 + model.c0)))) * Real(0.5) + (v1L_z +
-      t16 * D1);
-  zdot[0] = (t75 * tau_2_0 - (r1_x * rdf1_y - (rdn1_z + (rQp0 + input.u[1])) - (r1_y * rdf1_x + t16 * rQ1_0)))
+  zdot[0] = (t24 * tau_2_0 - (r1_x * rdf1_y - (rdn1_z + (rQp0 + input.u[1])) - (r1_y * rdf1_x + t21 * rQ1_0)))
       / (T2 * Real(2.0));
 }
 
@@ -523,15 +523,15 @@ Real potential_energy(const Model<Real>&, const State<Real>& state) noexcept {
 template <class Real> JOURDAIN_FUNCTION
 void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, Outputs<Real>& result) noexcept
     {
-  Real s0, c0, t3, t6;
-  detail::sine_cosine2(state.y[0], s0, c0, state.y[1], t3, t6);
-  const Real c1 = s0 * t3 - c0 * t6;
-  const Real piston_pinbx_x = c1 * Real(0.145);
+  Real s0, c0, t4, t5;
+  detail::sine_cosine2(state.y[0], s0, c0, state.y[1], t4, t5);
+  const Real s1 = c0 * t4 + s0 * t5;
+  const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.045);
+  const Real piston_pinbx_x = c1 * Real(0.145);
   const Real piston_pinbx1_x = r1_x - piston_pinbx_x;
-  const Real s1 = c0 * t3 + s0 * t6;
-  const Real piston_pinbx_y = s1 * Real(0.145);
   const Real r1_y = s0 * Real(0.045);
+  const Real piston_pinbx_y = s1 * Real(0.145);
   result.piston_speed = -((piston_pinbx_y * (piston_pinbx1_x / piston_pinbx_x) + (r1_y + piston_pinbx_y)) *
       state.z[0]);
 }

@@ -222,16 +222,16 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
     noexcept {
   Real s0, c0;
   detail::sine_cosine(state.y[0], s0, c0);
-  const Real bQp0 = s0 * (state.y[1] * Real(9.81));
-  const Real t7 = state.y[1] * state.z[0];
-  const Real bn1c_z = t7 * (state.z[1] * Real(2.0));
-  const Real bQ0_0 = bQp0 + bn1c_z;
-  const Real S1c_xx = state.y[1] * state.y[1];
-  const Real y_0 = bQ0_0 / S1c_xx;
   const Real stretch1 = state.y[1] - Real(1.0);
   const Real push1_0 = stretch1 * model.k;
+  const Real bQp0 = s0 * (state.y[1] * Real(9.81));
   const Real bL0a_x = c0 * Real(9.81);
-  const Real b_1 = bL0a_x - (push1_0 - state.z[0] * t7);
+  const Real t13 = state.y[1] * state.z[0];
+  const Real bn1c_z = t13 * (state.z[1] * Real(2.0));
+  const Real bQ0_0 = bQp0 + bn1c_z;
+  const Real b_1 = bL0a_x - (push1_0 - state.z[0] * t13);
+  const Real S1c_xx = state.y[1] * state.y[1];
+  const Real y_0 = bQ0_0 / S1c_xx;
   zdot[0] = -y_0;
   zdot[1] = b_1;
 }

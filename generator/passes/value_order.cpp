@@ -163,7 +163,7 @@ Program order_values(const Program& program) {
   for (const ir::Output& output : program.outputs) roots.push_back(output.value);
   Program best = program;
   const std::size_t given = estimated_cycles(program);
-  std::size_t least = given - given / 50;  // less than that is beyond the model
+  std::size_t least = given - given / 25;  // less than that is beyond the model
   for (int k = 0; k < 2; ++k) {
     Program walked = in_order(program, walk(roots, needs));
     if (const std::size_t cycles = estimated_cycles(walked); cycles < least) {

@@ -10,7 +10,7 @@ namespace jourdain::passes {
 /// Exact. The same values in the order in which a processor takes fewest `estimated_cycles`: that of the program, or of
 /// a walk from its outputs, first to last or last to first, into what they need, of two operands that first whose walk
 /// keeps more numbers at a time (Sethi and Ullman, "The generation of optimal code for arithmetic expressions", J. ACM
-/// 17, 1970). The program's stays where another saves less than a fiftieth, and where values are computed at once.
+/// 17, 1970). The program's stays where another saves less than 1 in 25, and where values are computed at once.
 ir::Program order_values(const ir::Program& program);
 
 /// Cycles from the first operation to the end of the last one in the program's order, by a model of processors that
