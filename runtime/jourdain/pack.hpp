@@ -4,8 +4,8 @@
 // of an angle at once.
 //
 // Each lane has the bits that double, or float, has under the same options, where sums and products are not fused
-// (-ffp-contract=off), but for sines of floats, which are taken in double, less than 0.51 ulp off. Entries of tables and
-// functions of the C library (exp and its like) are taken lane by lane, as are roots without -fno-math-errno.
+// (-ffp-contract=off), but for sines of floats, which are taken in double, less than 0.51 ulp off. Entries of tables
+// and functions of the C library (exp and its like) are taken lane by lane, as are roots without -fno-math-errno.
 #pragma once
 
 #if !defined(__GNUC__)
