@@ -35,23 +35,29 @@ std::vector<bool> needed_values(const Program& program) {
   return needed;
 }
 
-Program without_unused(const Program& program) {
-  const std::vector<bool> needed = needed_values(program);
+Program in_order(const Program& program, const std::vector<ir::ValueId>& order) {
   Program result;
   result.name = program.name;
   std::vector<ir::ValueId> place(program.nodes.size());
-  for (std::size_t i = 0; i < program.nodes.size(); ++i) {
-    if (!needed[i]) continue;
-    Node node = program.nodes[i];
+  for (const ir::ValueId value : order) {
+    Node node = program[value];
     if (ir::operand_count(node.op) >= 1) node.a = place[node.a.value];
     if (ir::operand_count(node.op) == 2) node.b = place[node.b.value];
-    place[i] = ir::ValueId(result.nodes.size());
+    place[value.value] = ir::ValueId(result.nodes.size());
     result.nodes.push_back(node);
-    result.labels.push_back(program.labels[i]);
+    result.labels.push_back(program.labels[value.value]);
   }
   result.outputs = program.outputs;
   for (ir::Output& output : result.outputs) output.value = place[output.value.value];
   return result;
+}
+
+Program without_unused(const Program& program) {
+  const std::vector<bool> needed = needed_values(program);
+  std::vector<ir::ValueId> order;
+  for (std::size_t i = 0; i < program.nodes.size(); ++i)
+    if (needed[i]) order.emplace_back(i);
+  return in_order(program, order);
 }
 
 namespace {

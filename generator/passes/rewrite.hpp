@@ -16,6 +16,9 @@ ir::Program remove_dead_code(const ir::Program& program);
 /// Copy of `program` without values that no output needs, all others as they are.
 ir::Program without_unused(const ir::Program& program);
 
+/// These values of `program`, each after what it needs, and its outputs; without lanes.
+ir::Program in_order(const ir::Program& program, const std::vector<ir::ValueId>& order);
+
 /// Have the two the same values in the same order, and the same outputs? Names apart.
 bool same_operations(const ir::Program& a, const ir::Program& b);
 

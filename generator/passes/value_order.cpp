@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "passes/rewrite.hpp"
+
 namespace jourdain::passes {
 
 using ir::Node;
@@ -18,10 +20,7 @@ class Processor {
  public:
   explicit Processor(const Program& program)
       : program_(program), fused_(program.nodes.size(), false), done_(program.nodes.size(), 0) {
-    std::vector<std::size_t> uses(program.nodes.size(), 0);
-    for (const Node& node : program.nodes)
-      for (int k = 0; k < ir::operand_count(node.op); ++k) ++uses[(k == 0 ? node.a : node.b).value];
-    for (const ir::Output& output : program.outputs) ++uses[output.value.value];
+    const std::vector<std::size_t> uses = ir::use_counts(program);
     const auto takes_up = [&](ValueId term) {
       fused_[term.value] = program[term].op == Op::kMultiply && uses[term.value] == 1;
       return fused_[term.value];
@@ -80,10 +79,9 @@ class Processor {
 
   const Program& program_;
   std::vector<bool> fused_;
-  std::vector<std::size_t> done_;  ///< of each value: when it is there
-  std::vector<std::size_t>
-      retired_;                     ///< of each operation that was begun: when it and all before it are there
-  std::vector<std::size_t> begun_;  ///< operations that begin in each cycle
+  /// Of each value when it is there; of each operation that was begun when it and all before it are; of each cycle how
+  /// many operations begin.
+  std::vector<std::size_t> done_, retired_, begun_;
 };
 
 /// Operands, that which keeps more numbers first.
@@ -94,8 +92,8 @@ struct Needs {
 
 std::vector<Needs> needs_of(const Program& program) {
   std::vector<Needs> all(program.nodes.size());
-  std::vector<int> kept(program.nodes.size(),
-                        0);  // numbers at a time, were nothing shared; leaves are read where needed
+  // Numbers that the walk to each value keeps at a time, were nothing shared; leaves are read where needed.
+  std::vector<int> kept(program.nodes.size(), 0);
   for (std::size_t i = 0; i < program.nodes.size(); ++i) {
     const Node& node = program.nodes[i];
     Needs& needs = all[i];
@@ -131,25 +129,6 @@ std::vector<ValueId> walk(const std::vector<ValueId>& roots, const std::vector<N
     }
   }
   return order;
-}
-
-Program in_order(const Program& program, const std::vector<ValueId>& order) {
-  Program result;
-  result.name = program.name;
-  std::vector<ValueId> place(program.nodes.size());
-  for (const ValueId value : order) {
-    Node node = program[value];
-    if (ir::operand_count(node.op) >= 1) node.a = place[node.a.value];
-    if (ir::operand_count(node.op) == 2) node.b = place[node.b.value];
-    place[value.value] = ValueId(result.nodes.size());
-    result.nodes.push_back(node);
-    result.labels.push_back(program.labels[value.value]);
-  }
-  for (ir::Output output : program.outputs) {
-    output.value = place[output.value.value];
-    result.outputs.push_back(std::move(output));
-  }
-  return result;
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ struct Kinks {
   std::size_t on_both_sides = 0;  ///< of them, at the states compared
   double nearest = 0;             ///< the least distance of all, over its scale, see ScaledReal
   std::size_t left_out = 0;  ///< states so near to a kink that rounding may choose the side: not compared
-  std::size_t stuck = 0;     ///< kinks within rounding of all states, and not on them at all
+  std::size_t stuck = 0;     ///< kinks of functions that all states are within rounding of, but not all on
   std::size_t on = 0;        ///< states on a kink, where derivatives are those of one side: not compared
 };
 
@@ -33,8 +33,7 @@ inline constexpr const char* kAllNearKinks =
 /// Why one is refused with derivatives that no state was left for.
 inline constexpr const char* kAllOnKinks =
     "no derivatives were compared: every state that was drawn lies on a kink of abs, min, max, floor or if, "
-    "or is "
-    "within rounding of one";
+    "or is within rounding of one";
 
 class KinkSurvey {
  public:
