@@ -150,51 +150,6 @@ TEST(Contact, IsDifferentiatedWhereItsPowerHasARoot) {
   }
 }
 
-/// Drag that has a kink where the description starts: derivatives are compared beside it.
-TEST(Laws, AreDifferentiatedWhereTheyHaveAKinkAtTheStart) {
-  const std::string text =
-      "[model]\nname = \"glider\"\n[[body]]\nname = \"b\"\nmass = 2\n[[joint]]\nname = \"q\"\ntype = "
-      "\"prismatic\"\naxis = [0, 0, 1]\nparent = \"world\"\nchild = \"b\"\n[[force]]\njoint = "
-      "\"q\"\nvalue = \"-3*abs(b.vz)\"\n";
-  support::Diagnostics diagnostics("glider.toml", text);
-  CompileOptions options;
-  options.functions = {"forward_dynamics", "linearize"};
-  const CompiledModel compiled = compile(model::read_mechanism(diagnostics).value(), options);
-  EXPECT_EQ(compiled.verdict.failures, std::vector<std::string>());
-  EXPECT_EQ(compiled.verdict.kinks.on, 1U);
-  EXPECT_EQ(compiled.verdict.kinks.on_both_sides, 1U);
-  for (const validate::Compared& c : compiled.verdict.compared)
-    EXPECT_EQ(c.states, compiled.verdict.states - (c.function.starts_with("linearize") ? 1U : 0U))
-        << c.function;
-}
-
-/// A root of what a law holds at zero does not move there, though a root's slope is infinite at zero.
-TEST(Laws, AreDifferentiatedWhereTheyHoldARootAtZero) {
-  const auto slope = [](const std::string& law, double y) {
-    const std::string text =
-        "[model]\nname = \"valve\"\n[[body]]\nname = \"b\"\nmass = 2\n[[joint]]\nname = \"q\"\ntype = "
-        "\"prismatic\"\naxis = [1, 0, 0]\nparent = \"world\"\nchild = \"b\"\n[[force]]\njoint = \"q\"\nvalue "
-        "= \"" +
-        law + "\"\n";
-    support::Diagnostics diagnostics("valve.toml", text);
-    CompileOptions options;
-    options.functions = {"forward_dynamics_derivatives", "residual_derivatives"};
-    const CompiledModel compiled = compile(model::read_mechanism(diagnostics).value(), options);
-    EXPECT_EQ(compiled.verdict.failures, std::vector<std::string>()) << law;
-    Sample sample;
-    sample.y = {y};
-    sample.z = {0.3};
-    return interpreted<double>(compiled.module, "forward_dynamics_derivatives", sample).at(1);
-  };
-  EXPECT_EQ(slope("sqrt(max(q, 0))", -0.5), 0);
-  EXPECT_NEAR(slope("sqrt(max(q, 0))", 0.25), 0.5, 1e-12);
-  EXPECT_EQ(slope("max(q, 0)^0.7", -0.5), 0);
-  EXPECT_NEAR(slope("max(q, 0)^0.7", 1), 0.35, 1e-12);
-  EXPECT_EQ(slope("asin(max(min(q, 1), -1))", 1.5), 0);
-  EXPECT_NEAR(slope("asin(max(min(q, 1), -1))", 0.6), 0.5 / 0.8, 1e-12);
-  EXPECT_EQ(slope("acos(max(min(q, 1), -1))", -2), 0);
-}
-
 TEST(Contact, CreepsOnASlopeAsSmoothedFrictionLetsIt) {
   // A slope of 20 degrees falls towards +x; the normal leans with it.
   const double slope = 20 * std::acos(-1) / 180, slip = 0.01;
