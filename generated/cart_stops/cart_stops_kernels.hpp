@@ -74,22 +74,10 @@ Input<Real> input_at(const InputAt& sampled, const State<Real>& stage) noexcept 
   return sampled(stage);
 }
 
-template <class Real> JOURDAIN_FUNCTION
-void velocities(const Model<Real>&, const State<Real>& stage, Real (&ydot)[1]) noexcept {
-  for (int i = 0; i < Model<Real>::position_count; ++i) ydot[i] = stage.z[i];
-}
-
 template <class Real, class Inputs> JOURDAIN_FUNCTION
 void accelerations(const Model<Real>& model, const State<Real>& stage, const Inputs& input,
                    Real (&zdot)[1]) noexcept {
   forward_dynamics(model, stage, input_at(input, stage), zdot);
-}
-
-template <class Real, class Inputs> JOURDAIN_FUNCTION
-void rates(const Model<Real>& model, const State<Real>& stage, const Inputs& input, Real (&ydot)[1],
-           Real (&zdot)[1]) noexcept {
-  velocities(model, stage, ydot);
-  accelerations(model, stage, input, zdot);
 }
 
 }  // namespace detail
@@ -223,23 +211,24 @@ template <class Real, class InputAt> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const InputAt& input, Real h) noexcept {
   constexpr int ny = Model<Real>::position_count, nz = Model<Real>::velocity_count;
   const Real half = Real(0.5) * h;
-  State<Real> stage;
-  Real v1[ny], v2[ny], v3[ny], v4[ny], a1[nz], a2[nz], a3[nz], a4[nz];
-  detail::rates(model, state, input, v1, a1);
-  stage.t = state.t + half;
-  for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + half * v1[i];
-  for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + half * a1[i];
-  detail::rates(model, stage, input, v2, a2);
-  for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + half * v2[i];
-  for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + half * a2[i];
-  detail::rates(model, stage, input, v3, a3);
-  stage.t = state.t + h;
-  for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + h * v3[i];
-  for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + h * a3[i];
-  detail::rates(model, stage, input, v4, a4);
+  State<Real> stage2, stage3, stage4;
+  Real a1[nz], a2[nz], a3[nz], a4[nz];
+  stage2.t = state.t + half;
+  for (int i = 0; i < ny; ++i) stage2.y[i] = state.y[i] + half * state.z[i];
+  detail::accelerations(model, state, input, a1);
+  for (int i = 0; i < nz; ++i) stage2.z[i] = state.z[i] + half * a1[i];
+  stage3.t = state.t + half;
+  for (int i = 0; i < ny; ++i) stage3.y[i] = state.y[i] + half * stage2.z[i];
+  detail::accelerations(model, stage2, input, a2);
+  for (int i = 0; i < nz; ++i) stage3.z[i] = state.z[i] + half * a2[i];
+  stage4.t = state.t + h;
+  for (int i = 0; i < ny; ++i) stage4.y[i] = state.y[i] + h * stage3.z[i];
+  detail::accelerations(model, stage3, input, a3);
+  for (int i = 0; i < nz; ++i) stage4.z[i] = state.z[i] + h * a3[i];
   const Real sixth = h / Real(6.0);
+  detail::accelerations(model, stage4, input, a4);
   for (int i = 0; i < ny; ++i)
-    state.y[i] = state.y[i] + sixth * (v1[i] + Real(2.0) * (v2[i] + v3[i]) + v4[i]);
+    state.y[i] = state.y[i] + sixth * (state.z[i] + Real(2.0) * (stage2.z[i] + stage3.z[i]) + stage4.z[i]);
   for (int i = 0; i < nz; ++i)
     state.z[i] = state.z[i] + sixth * (a1[i] + Real(2.0) * (a2[i] + a3[i]) + a4[i]);
   state.t = state.t + h;

@@ -159,76 +159,88 @@ void sine_cosine2(const Real& x0, Real& s0, Real& c0, const Real& x1, Real& s1, 
   sine_cosine(x1, s1, c1);
 }
 template <class Real> JOURDAIN_FUNCTION
-void sine_cosine4(const Real& x0, Real& s0, Real& c0, const Real& x1, Real& s1, Real& c1,
-                  const Real& x2, Real& s2, Real& c2, const Real& x3, Real& s3, Real& c3) noexcept {
+void sine_cosine3(const Real& x0, Real& s0, Real& c0, const Real& x1, Real& s1, Real& c1,
+                  const Real& x2, Real& s2, Real& c2) noexcept {
   sine_cosine(x0, s0, c0);
   sine_cosine(x1, s1, c1);
   sine_cosine(x2, s2, c2);
-  sine_cosine(x3, s3, c3);
 }
 #if !defined(JOURDAIN_LIBRARY_SINES)
-JOURDAIN_FUNCTION inline void sine_cosine2(const double& x0, double& s0, double& c0,
-                                           const double& x1, double& s1, double& c1) noexcept {
 #if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
-  if (is_in_range(x0) && is_in_range(x1)) {
-    typedef double Lanes __attribute__((vector_size(16)));
-    typedef unsigned long long Bits __attribute__((vector_size(16)));
-    Lanes s, c;
-    sine_cosine_in_range<Lanes, Bits>(Lanes{x0, x1}, s, c);
-    s0 = s[0];
-    c0 = c[0];
-    s1 = s[1];
-    c1 = c[1];
-    return;
+// Seldom: where an angle of several is out of range, or no number.
+template <class Lanes> __attribute__((noinline, cold))
+void sine_cosine_by_lane(const Lanes& x, Lanes& s, Lanes& c) noexcept {
+  for (unsigned i = 0; i < sizeof(x) / sizeof(double); ++i) {
+    double sine, cosine;
+    sine_cosine(x[i], sine, cosine);
+    s[i] = sine;
+    c[i] = cosine;
   }
-#endif
-  sine_cosine(x0, s0, c0);
-  sine_cosine(x1, s1, c1);
 }
-JOURDAIN_FUNCTION inline void sine_cosine4(const double& x0, double& s0, double& c0,
-                                           const double& x1, double& s1, double& c1,
-                                           const double& x2, double& s2, double& c2,
-                                           const double& x3, double& s3, double& c3) noexcept {
+#endif
+#endif
+#if !defined(JOURDAIN_LIBRARY_SINES)
 #if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
-  if (is_in_range(x0) && is_in_range(x1) && is_in_range(x2) && is_in_range(x3)) {
-    typedef double Lanes __attribute__((vector_size(32)));
-    typedef unsigned long long Bits __attribute__((vector_size(32)));
-    Lanes s, c;
-    sine_cosine_in_range<Lanes, Bits>(Lanes{x0, x1, x2, x3}, s, c);
-    s0 = s[0];
-    c0 = c[0];
-    s1 = s[1];
-    c1 = c[1];
-    s2 = s[2];
-    c2 = c[2];
-    s3 = s[3];
-    c3 = c[3];
-    return;
+JOURDAIN_FUNCTION __attribute__((always_inline))
+inline void sine_cosine2(const double& x0, double& s0, double& c0,
+                         const double& x1, double& s1, double& c1) noexcept {
+  typedef double Lanes __attribute__((vector_size(16)));
+  typedef unsigned long long Bits __attribute__((vector_size(16)));
+  const unsigned long long one = 1, largest = 4742290407621132288;
+  const Lanes x = {x0, x1};
+  const Bits above = largest - (__builtin_bit_cast(Bits, x) & ~(one << 63));
+  Lanes s, c;
+  if ((above[0] | above[1]) >> 63) {
+    const Lanes each = x;
+    Lanes sines, cosines;
+    sine_cosine_by_lane(each, sines, cosines);
+    s = sines;
+    c = cosines;
+  } else {
+    sine_cosine_in_range<Lanes, Bits>(x, s, c);
   }
-#endif
-  sine_cosine(x0, s0, c0);
-  sine_cosine(x1, s1, c1);
-  sine_cosine(x2, s2, c2);
-  sine_cosine(x3, s3, c3);
+  s0 = s[0];
+  c0 = c[0];
+  s1 = s[1];
+  c1 = c[1];
 }
 #endif
-
-template <class Real> JOURDAIN_FUNCTION
-void velocities(const Model<Real>&, const State<Real>& stage, Real (&ydot)[4]) noexcept {
-  for (int i = 0; i < Model<Real>::position_count; ++i) ydot[i] = stage.z[i];
+#endif
+#if !defined(JOURDAIN_LIBRARY_SINES)
+#if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
+JOURDAIN_FUNCTION __attribute__((always_inline))
+inline void sine_cosine3(const double& x0, double& s0, double& c0,
+                         const double& x1, double& s1, double& c1,
+                         const double& x2, double& s2, double& c2) noexcept {
+  typedef double Lanes __attribute__((vector_size(32)));
+  typedef unsigned long long Bits __attribute__((vector_size(32)));
+  const unsigned long long one = 1, largest = 4742290407621132288;
+  const Lanes x = {x0, x1, x2, x2};
+  const Bits above = largest - (__builtin_bit_cast(Bits, x) & ~(one << 63));
+  Lanes s, c;
+  if ((above[0] | above[1] | above[2]) >> 63) {
+    const Lanes each = x;
+    Lanes sines, cosines;
+    sine_cosine_by_lane(each, sines, cosines);
+    s = sines;
+    c = cosines;
+  } else {
+    sine_cosine_in_range<Lanes, Bits>(x, s, c);
+  }
+  s0 = s[0];
+  c0 = c[0];
+  s1 = s[1];
+  c1 = c[1];
+  s2 = s[2];
+  c2 = c[2];
 }
+#endif
+#endif
 
 template <class Real> JOURDAIN_FUNCTION
 void accelerations(const Model<Real>& model, const State<Real>& stage, const Input<Real>& input,
                    Real (&zdot)[4]) noexcept {
   forward_dynamics(model, stage, input, zdot);
-}
-
-template <class Real> JOURDAIN_FUNCTION
-void rates(const Model<Real>& model, const State<Real>& stage, const Input<Real>& input, Real (&ydot)[4],
-           Real (&zdot)[4]) noexcept {
-  velocities(model, stage, ydot);
-  accelerations(model, stage, input, zdot);
 }
 
 }  // namespace detail
@@ -298,10 +310,8 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[4]) noexcept 
 
 template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Real (&q)[4]) noexcept {
-  Real s0, c0, s2, c2;
-  detail::sine_cosine2(state.y[0], s0, c0, state.y[2], s2, c2);
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
+  Real s0, c0, s2, c2, s3, c3;
+  detail::sine_cosine3(state.y[0], s0, c0, state.y[2], s2, c2, state.y[3], s3, c3);
   const Real link1bx_x = s2 * Real(0.5);
   const Real link1bx_y = c2 * Real(0.5);
   const Real link1bv2_x = link1bx_y * state.z[2];
@@ -343,10 +353,8 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Real (&zdot)[4])
     noexcept {
-  Real s0, c0, s2, c2;
-  detail::sine_cosine2(state.y[0], s0, c0, state.y[2], s2, c2);
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
+  Real s0, c0, s2, c2, s3, c3;
+  detail::sine_cosine3(state.y[0], s0, c0, state.y[2], s2, c2, state.y[3], s3, c3);
   const Real S3b_t = s3 * Real(5.0999975);
   const Real h3b_x = s3 * Real(5.15);
   const Real h3b_y = c3 * Real(5.15);
@@ -409,10 +417,8 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[4], Real
     (&tau)[4]) noexcept {
-  Real s0, c0, s2, c2;
-  detail::sine_cosine2(state.y[0], s0, c0, state.y[2], s2, c2);
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
+  Real s0, c0, s2, c2, s3, c3;
+  detail::sine_cosine3(state.y[0], s0, c0, state.y[2], s2, c2, state.y[3], s3, c3);
   const Real S3b_t = s3 * Real(5.0999975);
   const Real h3b_x = s3 * Real(5.15);
   const Real h3b_y = c3 * Real(5.15);
@@ -486,10 +492,8 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
 
 template <class Real> JOURDAIN_FUNCTION
 Real potential_energy(const Model<Real>& model, const State<Real>& state) noexcept {
-  Real s0, c0, s2, c2;
-  detail::sine_cosine2(state.y[0], s0, c0, state.y[2], s2, c2);
-  Real s3, c3;
-  detail::sine_cosine(state.y[3], s3, c3);
+  Real s0, c0, s2, c2, s3, c3;
+  detail::sine_cosine3(state.y[0], s0, c0, state.y[2], s2, c2, state.y[3], s3, c3);
   const Real h1r_z = state.y[1] * Real(3.000000000000001);
   const Real hg0_z = (s2 + s3) * Real(5.15) - (h1r_z + Real(10.75));
   const Real link1bx_x = s2 * Real(0.5);
@@ -517,21 +521,21 @@ template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept {
   constexpr int ny = Model<Real>::position_count, nz = Model<Real>::velocity_count;
   const Real half = Real(0.5) * h;
-  State<Real> stage;
-  Real v1[ny], v2[ny], v3[ny], v4[ny], a1[nz], a2[nz], a3[nz], a4[nz];
-  detail::rates(model, state, input, v1, a1);
-  for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + half * v1[i];
-  for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + half * a1[i];
-  detail::rates(model, stage, input, v2, a2);
-  for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + half * v2[i];
-  for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + half * a2[i];
-  detail::rates(model, stage, input, v3, a3);
-  for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + h * v3[i];
-  for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + h * a3[i];
-  detail::rates(model, stage, input, v4, a4);
+  State<Real> stage2, stage3, stage4;
+  Real a1[nz], a2[nz], a3[nz], a4[nz];
+  for (int i = 0; i < ny; ++i) stage2.y[i] = state.y[i] + half * state.z[i];
+  detail::accelerations(model, state, input, a1);
+  for (int i = 0; i < nz; ++i) stage2.z[i] = state.z[i] + half * a1[i];
+  for (int i = 0; i < ny; ++i) stage3.y[i] = state.y[i] + half * stage2.z[i];
+  detail::accelerations(model, stage2, input, a2);
+  for (int i = 0; i < nz; ++i) stage3.z[i] = state.z[i] + half * a2[i];
+  for (int i = 0; i < ny; ++i) stage4.y[i] = state.y[i] + h * stage3.z[i];
+  detail::accelerations(model, stage3, input, a3);
+  for (int i = 0; i < nz; ++i) stage4.z[i] = state.z[i] + h * a3[i];
   const Real sixth = h / Real(6.0);
+  detail::accelerations(model, stage4, input, a4);
   for (int i = 0; i < ny; ++i)
-    state.y[i] = state.y[i] + sixth * (v1[i] + Real(2.0) * (v2[i] + v3[i]) + v4[i]);
+    state.y[i] = state.y[i] + sixth * (state.z[i] + Real(2.0) * (stage2.z[i] + stage3.z[i]) + stage4.z[i]);
   for (int i = 0; i < nz; ++i)
     state.z[i] = state.z[i] + sixth * (a1[i] + Real(2.0) * (a2[i] + a3[i]) + a4[i]);
 }

@@ -215,58 +215,82 @@ void sine_cosine2(const Real& x0, Real& s0, Real& c0, const Real& x1, Real& s1, 
   sine_cosine(x1, s1, c1);
 }
 template <class Real> JOURDAIN_FUNCTION
-void sine_cosine4(const Real& x0, Real& s0, Real& c0, const Real& x1, Real& s1, Real& c1,
-                  const Real& x2, Real& s2, Real& c2, const Real& x3, Real& s3, Real& c3) noexcept {
+void sine_cosine3(const Real& x0, Real& s0, Real& c0, const Real& x1, Real& s1, Real& c1,
+                  const Real& x2, Real& s2, Real& c2) noexcept {
   sine_cosine(x0, s0, c0);
   sine_cosine(x1, s1, c1);
   sine_cosine(x2, s2, c2);
-  sine_cosine(x3, s3, c3);
 }
 #if !defined(JOURDAIN_LIBRARY_SINES)
-JOURDAIN_FUNCTION inline void sine_cosine2(const double& x0, double& s0, double& c0,
-                                           const double& x1, double& s1, double& c1) noexcept {
 #if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
-  if (is_in_range(x0) && is_in_range(x1)) {
-    typedef double Lanes __attribute__((vector_size(16)));
-    typedef unsigned long long Bits __attribute__((vector_size(16)));
-    Lanes s, c;
-    sine_cosine_in_range<Lanes, Bits>(Lanes{x0, x1}, s, c);
-    s0 = s[0];
-    c0 = c[0];
-    s1 = s[1];
-    c1 = c[1];
-    return;
+// Seldom: where an angle of several is out of range, or no number.
+template <class Lanes> __attribute__((noinline, cold))
+void sine_cosine_by_lane(const Lanes& x, Lanes& s, Lanes& c) noexcept {
+  for (unsigned i = 0; i < sizeof(x) / sizeof(double); ++i) {
+    double sine, cosine;
+    sine_cosine(x[i], sine, cosine);
+    s[i] = sine;
+    c[i] = cosine;
   }
-#endif
-  sine_cosine(x0, s0, c0);
-  sine_cosine(x1, s1, c1);
 }
-JOURDAIN_FUNCTION inline void sine_cosine4(const double& x0, double& s0, double& c0,
-                                           const double& x1, double& s1, double& c1,
-                                           const double& x2, double& s2, double& c2,
-                                           const double& x3, double& s3, double& c3) noexcept {
+#endif
+#endif
+#if !defined(JOURDAIN_LIBRARY_SINES)
 #if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
-  if (is_in_range(x0) && is_in_range(x1) && is_in_range(x2) && is_in_range(x3)) {
-    typedef double Lanes __attribute__((vector_size(32)));
-    typedef unsigned long long Bits __attribute__((vector_size(32)));
-    Lanes s, c;
-    sine_cosine_in_range<Lanes, Bits>(Lanes{x0, x1, x2, x3}, s, c);
-    s0 = s[0];
-    c0 = c[0];
-    s1 = s[1];
-    c1 = c[1];
-    s2 = s[2];
-    c2 = c[2];
-    s3 = s[3];
-    c3 = c[3];
-    return;
+JOURDAIN_FUNCTION __attribute__((always_inline))
+inline void sine_cosine2(const double& x0, double& s0, double& c0,
+                         const double& x1, double& s1, double& c1) noexcept {
+  typedef double Lanes __attribute__((vector_size(16)));
+  typedef unsigned long long Bits __attribute__((vector_size(16)));
+  const unsigned long long one = 1, largest = 4742290407621132288;
+  const Lanes x = {x0, x1};
+  const Bits above = largest - (__builtin_bit_cast(Bits, x) & ~(one << 63));
+  Lanes s, c;
+  if ((above[0] | above[1]) >> 63) {
+    const Lanes each = x;
+    Lanes sines, cosines;
+    sine_cosine_by_lane(each, sines, cosines);
+    s = sines;
+    c = cosines;
+  } else {
+    sine_cosine_in_range<Lanes, Bits>(x, s, c);
   }
-#endif
-  sine_cosine(x0, s0, c0);
-  sine_cosine(x1, s1, c1);
-  sine_cosine(x2, s2, c2);
-  sine_cosine(x3, s3, c3);
+  s0 = s[0];
+  c0 = c[0];
+  s1 = s[1];
+  c1 = c[1];
 }
+#endif
+#endif
+#if !defined(JOURDAIN_LIBRARY_SINES)
+#if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
+JOURDAIN_FUNCTION __attribute__((always_inline))
+inline void sine_cosine3(const double& x0, double& s0, double& c0,
+                         const double& x1, double& s1, double& c1,
+                         const double& x2, double& s2, double& c2) noexcept {
+  typedef double Lanes __attribute__((vector_size(32)));
+  typedef unsigned long long Bits __attribute__((vector_size(32)));
+  const unsigned long long one = 1, largest = 4742290407621132288;
+  const Lanes x = {x0, x1, x2, x2};
+  const Bits above = largest - (__builtin_bit_cast(Bits, x) & ~(one << 63));
+  Lanes s, c;
+  if ((above[0] | above[1] | above[2]) >> 63) {
+    const Lanes each = x;
+    Lanes sines, cosines;
+    sine_cosine_by_lane(each, sines, cosines);
+    s = sines;
+    c = cosines;
+  } else {
+    sine_cosine_in_range<Lanes, Bits>(x, s, c);
+  }
+  s0 = s[0];
+  c0 = c[0];
+  s1 = s[1];
+  c1 = c[1];
+  s2 = s[2];
+  c2 = c[2];
+}
+#endif
 #endif
 
 // Inputs at a stage: held over the step, or sampled there.
@@ -279,22 +303,10 @@ Input<Real> input_at(const InputAt& sampled, const State<Real>& stage) noexcept 
   return sampled(stage);
 }
 
-template <class Real> JOURDAIN_FUNCTION
-void velocities(const Model<Real>& model, const State<Real>& stage, Real (&ydot)[3]) noexcept {
-  position_rate(model, stage, ydot);
-}
-
 template <class Real, class Inputs> JOURDAIN_FUNCTION
 void accelerations(const Model<Real>& model, const State<Real>& stage, const Inputs& input,
                    Real (&zdot)[1]) noexcept {
   forward_dynamics(model, stage, input_at(input, stage), zdot);
-}
-
-template <class Real, class Inputs> JOURDAIN_FUNCTION
-void rates(const Model<Real>& model, const State<Real>& stage, const Inputs& input, Real (&ydot)[3],
-           Real (&zdot)[1]) noexcept {
-  velocities(model, stage, ydot);
-  accelerations(model, stage, input, zdot);
 }
 
 }  // namespace detail
@@ -317,13 +329,11 @@ State<Real> initial_state(const Model<Real>&) noexcept {
 
 template <class Real> JOURDAIN_FUNCTION
 void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[3]) noexcept {
-  Real s0, c0, t4, t5;
-  detail::sine_cosine2(state.y[0], s0, c0, state.y[1], t4, t5);
+  Real s0, c0, t4, t5, s2, c2;
+  detail::sine_cosine3(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], s2, c2);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.12);
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
   const Real pinax_x = c2 * Real(0.24);
   const Real pinbx_x = c1 * Real(0.36);
   const Real pinbx1_x = r1_x - pinbx_x;
@@ -339,13 +349,11 @@ void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[3]
 
 template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[1][1]) noexcept {
-  Real s0, c0, t4, t5;
-  detail::sine_cosine2(state.y[0], s0, c0, state.y[1], t4, t5);
+  Real s0, c0, t4, t5, s2, c2;
+  detail::sine_cosine3(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], s2, c2);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.12);
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
   const Real pinax_x = c2 * Real(0.24);
   const Real pinbx_x = c1 * Real(0.36);
   const Real pinbx1_x = r1_x - pinbx_x;
@@ -365,13 +373,11 @@ void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[1][1]) 
 
 template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[1]) noexcept {
-  Real s0, c0, t4, t5;
-  detail::sine_cosine2(state.y[0], s0, c0, state.y[1], t4, t5);
+  Real s0, c0, t4, t5, s2, c2;
+  detail::sine_cosine3(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], s2, c2);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.12);
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
   const Real pinax_x = c2 * Real(0.24);
   const Real pinbx_x = c1 * Real(0.36);
   const Real pinbx1_x = r1_x - pinbx_x;
@@ -410,13 +416,11 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[1]) noexcept 
 template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real (&q)[1])
     noexcept {
-  Real s0, c0, t4, t5;
-  detail::sine_cosine2(state.y[0], s0, c0, state.y[1], t4, t5);
+  Real s0, c0, t4, t5, s2, c2;
+  detail::sine_cosine3(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], s2, c2);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.12);
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
   const Real pinax_x = c2 * Real(0.24);
   const Real pinbx_x = c1 * Real(0.36);
   const Real pinbx1_x = r1_x - pinbx_x;
@@ -437,13 +441,11 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[1]) noexcept {
-  Real s0, c0, t4, t5;
-  detail::sine_cosine2(state.y[0], s0, c0, state.y[1], t4, t5);
+  Real s0, c0, t4, t5, s2, c2;
+  detail::sine_cosine3(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], s2, c2);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.12);
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
   const Real pinax_x = c2 * Real(0.24);
   const Real pinbx_x = c1 * Real(0.36);
   const Real pinbx1_x = r1_x - pinbx_x;
@@ -496,13 +498,11 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
 template <class Real> JOURDAIN_FUNCTION
 void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const Real (&zdot)[1], Real
     (&tau)[1]) noexcept {
-  Real s0, c0, t4, t5;
-  detail::sine_cosine2(state.y[0], s0, c0, state.y[1], t4, t5);
+  Real s0, c0, t4, t5, s2, c2;
+  detail::sine_cosine3(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], s2, c2);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.12);
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
   const Real pinax_x = c2 * Real(0.24);
   const Real pinbx_x = c1 * Real(0.36);
   const Real pinbx1_x = r1_x - pinbx_x;
@@ -553,13 +553,11 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
 
 template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
-  Real s0, c0, t4, t5;
-  detail::sine_cosine2(state.y[0], s0, c0, state.y[1], t4, t5);
+  Real s0, c0, t4, t5, s2, c2;
+  detail::sine_cosine3(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], s2, c2);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.12);
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
   const Real pinax_x = c2 * Real(0.24);
   const Real pinbx_x = c1 * Real(0.36);
   const Real pinbx1_x = r1_x - pinbx_x;
@@ -652,13 +650,11 @@ void close_loops(const Model<Real>&, State<Real>& state) noexcept {
 template <class Real> JOURDAIN_FUNCTION
 void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)[2], Real (&g_rate)[2])
     noexcept {
-  Real s0, c0, t4, t5;
-  detail::sine_cosine2(state.y[0], s0, c0, state.y[1], t4, t5);
+  Real s0, c0, t4, t5, s2, c2;
+  detail::sine_cosine3(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], s2, c2);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.12);
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
   const Real pinax_x = c2 * Real(0.24);
   const Real pinbx_x = c1 * Real(0.36);
   const Real pind_x = pinbx_x + (pinax_x - (r1_x - Real(0.4)));
@@ -675,13 +671,11 @@ void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)
 template <class Real> JOURDAIN_FUNCTION
 void constraint_forces(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&lambda)[2]) noexcept {
-  Real s0, c0, t4, t5;
-  detail::sine_cosine2(state.y[0], s0, c0, state.y[1], t4, t5);
+  Real s0, c0, t4, t5, s2, c2;
+  detail::sine_cosine3(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], s2, c2);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.12);
-  Real s2, c2;
-  detail::sine_cosine(state.y[2], s2, c2);
   const Real pinax_x = c2 * Real(0.24);
   const Real pinbx_x = c1 * Real(0.36);
   const Real pinbx1_x = r1_x - pinbx_x;
@@ -747,21 +741,27 @@ template <class Real, class InputAt> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const InputAt& input, Real h) noexcept {
   constexpr int ny = Model<Real>::position_count, nz = Model<Real>::velocity_count;
   const Real half = Real(0.5) * h;
-  State<Real> stage;
-  Real v1[ny], v2[ny], v3[ny], v4[ny], a1[nz], a2[nz], a3[nz], a4[nz];
-  detail::rates(model, state, input, v1, a1);
+  State<Real> stage, next;
+  Real v1[ny], v2[ny], v3[ny], v4[ny];
+  Real a1[nz], a2[nz], a3[nz], a4[nz];
   stage.t = state.t + half;
+  position_rate(model, state, v1);
   for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + half * v1[i];
+  detail::accelerations(model, state, input, a1);
   for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + half * a1[i];
-  detail::rates(model, stage, input, v2, a2);
-  for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + half * v2[i];
-  for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + half * a2[i];
-  detail::rates(model, stage, input, v3, a3);
+  next.t = state.t + half;
+  position_rate(model, stage, v2);
+  for (int i = 0; i < ny; ++i) next.y[i] = state.y[i] + half * v2[i];
+  detail::accelerations(model, stage, input, a2);
+  for (int i = 0; i < nz; ++i) next.z[i] = state.z[i] + half * a2[i];
   stage.t = state.t + h;
+  position_rate(model, next, v3);
   for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + h * v3[i];
+  detail::accelerations(model, next, input, a3);
   for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + h * a3[i];
-  detail::rates(model, stage, input, v4, a4);
   const Real sixth = h / Real(6.0);
+  position_rate(model, stage, v4);
+  detail::accelerations(model, stage, input, a4);
   for (int i = 0; i < ny; ++i)
     state.y[i] = state.y[i] + sixth * (v1[i] + Real(2.0) * (v2[i] + v3[i]) + v4[i]);
   for (int i = 0; i < nz; ++i)

@@ -154,9 +154,11 @@ void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
 
 // Of several angles at once, where a number type has that.
 template <class Real> JOURDAIN_FUNCTION
-void sine_cosine2(const Real& x0, Real& s0, Real& c0, const Real& x1, Real& s1, Real& c1) noexcept {
+void sine_cosine3(const Real& x0, Real& s0, Real& c0, const Real& x1, Real& s1, Real& c1,
+                  const Real& x2, Real& s2, Real& c2) noexcept {
   sine_cosine(x0, s0, c0);
   sine_cosine(x1, s1, c1);
+  sine_cosine(x2, s2, c2);
 }
 template <class Real> JOURDAIN_FUNCTION
 void sine_cosine4(const Real& x0, Real& s0, Real& c0, const Real& x1, Real& s1, Real& c1,
@@ -167,50 +169,81 @@ void sine_cosine4(const Real& x0, Real& s0, Real& c0, const Real& x1, Real& s1, 
   sine_cosine(x3, s3, c3);
 }
 #if !defined(JOURDAIN_LIBRARY_SINES)
-JOURDAIN_FUNCTION inline void sine_cosine2(const double& x0, double& s0, double& c0,
-                                           const double& x1, double& s1, double& c1) noexcept {
 #if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
-  if (is_in_range(x0) && is_in_range(x1)) {
-    typedef double Lanes __attribute__((vector_size(16)));
-    typedef unsigned long long Bits __attribute__((vector_size(16)));
-    Lanes s, c;
-    sine_cosine_in_range<Lanes, Bits>(Lanes{x0, x1}, s, c);
-    s0 = s[0];
-    c0 = c[0];
-    s1 = s[1];
-    c1 = c[1];
-    return;
+// Seldom: where an angle of several is out of range, or no number.
+template <class Lanes> __attribute__((noinline, cold))
+void sine_cosine_by_lane(const Lanes& x, Lanes& s, Lanes& c) noexcept {
+  for (unsigned i = 0; i < sizeof(x) / sizeof(double); ++i) {
+    double sine, cosine;
+    sine_cosine(x[i], sine, cosine);
+    s[i] = sine;
+    c[i] = cosine;
   }
-#endif
-  sine_cosine(x0, s0, c0);
-  sine_cosine(x1, s1, c1);
 }
-JOURDAIN_FUNCTION inline void sine_cosine4(const double& x0, double& s0, double& c0,
-                                           const double& x1, double& s1, double& c1,
-                                           const double& x2, double& s2, double& c2,
-                                           const double& x3, double& s3, double& c3) noexcept {
+#endif
+#endif
+#if !defined(JOURDAIN_LIBRARY_SINES)
 #if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
-  if (is_in_range(x0) && is_in_range(x1) && is_in_range(x2) && is_in_range(x3)) {
-    typedef double Lanes __attribute__((vector_size(32)));
-    typedef unsigned long long Bits __attribute__((vector_size(32)));
-    Lanes s, c;
-    sine_cosine_in_range<Lanes, Bits>(Lanes{x0, x1, x2, x3}, s, c);
-    s0 = s[0];
-    c0 = c[0];
-    s1 = s[1];
-    c1 = c[1];
-    s2 = s[2];
-    c2 = c[2];
-    s3 = s[3];
-    c3 = c[3];
-    return;
+JOURDAIN_FUNCTION __attribute__((always_inline))
+inline void sine_cosine3(const double& x0, double& s0, double& c0,
+                         const double& x1, double& s1, double& c1,
+                         const double& x2, double& s2, double& c2) noexcept {
+  typedef double Lanes __attribute__((vector_size(32)));
+  typedef unsigned long long Bits __attribute__((vector_size(32)));
+  const unsigned long long one = 1, largest = 4742290407621132288;
+  const Lanes x = {x0, x1, x2, x2};
+  const Bits above = largest - (__builtin_bit_cast(Bits, x) & ~(one << 63));
+  Lanes s, c;
+  if ((above[0] | above[1] | above[2]) >> 63) {
+    const Lanes each = x;
+    Lanes sines, cosines;
+    sine_cosine_by_lane(each, sines, cosines);
+    s = sines;
+    c = cosines;
+  } else {
+    sine_cosine_in_range<Lanes, Bits>(x, s, c);
   }
-#endif
-  sine_cosine(x0, s0, c0);
-  sine_cosine(x1, s1, c1);
-  sine_cosine(x2, s2, c2);
-  sine_cosine(x3, s3, c3);
+  s0 = s[0];
+  c0 = c[0];
+  s1 = s[1];
+  c1 = c[1];
+  s2 = s[2];
+  c2 = c[2];
 }
+#endif
+#endif
+#if !defined(JOURDAIN_LIBRARY_SINES)
+#if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
+JOURDAIN_FUNCTION __attribute__((always_inline))
+inline void sine_cosine4(const double& x0, double& s0, double& c0,
+                         const double& x1, double& s1, double& c1,
+                         const double& x2, double& s2, double& c2,
+                         const double& x3, double& s3, double& c3) noexcept {
+  typedef double Lanes __attribute__((vector_size(32)));
+  typedef unsigned long long Bits __attribute__((vector_size(32)));
+  const unsigned long long one = 1, largest = 4742290407621132288;
+  const Lanes x = {x0, x1, x2, x3};
+  const Bits above = largest - (__builtin_bit_cast(Bits, x) & ~(one << 63));
+  Lanes s, c;
+  if ((above[0] | above[1] | above[2] | above[3]) >> 63) {
+    const Lanes each = x;
+    Lanes sines, cosines;
+    sine_cosine_by_lane(each, sines, cosines);
+    s = sines;
+    c = cosines;
+  } else {
+    sine_cosine_in_range<Lanes, Bits>(x, s, c);
+  }
+  s0 = s[0];
+  c0 = c[0];
+  s1 = s[1];
+  c1 = c[1];
+  s2 = s[2];
+  c2 = c[2];
+  s3 = s[3];
+  c3 = c[3];
+}
+#endif
 #endif
 
 // Inputs at a stage: held over the step, or sampled there.
@@ -223,22 +256,10 @@ Input<Real> input_at(const InputAt& sampled, const State<Real>& stage) noexcept 
   return sampled(stage);
 }
 
-template <class Real> JOURDAIN_FUNCTION
-void velocities(const Model<Real>& model, const State<Real>& stage, Real (&ydot)[7]) noexcept {
-  position_rate(model, stage, ydot);
-}
-
 template <class Real, class Inputs> JOURDAIN_FUNCTION
 void accelerations(const Model<Real>& model, const State<Real>& stage, const Inputs& input,
                    Real (&zdot)[3]) noexcept {
   forward_dynamics(model, stage, input_at(input, stage), zdot);
-}
-
-template <class Real, class Inputs> JOURDAIN_FUNCTION
-void rates(const Model<Real>& model, const State<Real>& stage, const Inputs& input, Real (&ydot)[7],
-           Real (&zdot)[3]) noexcept {
-  velocities(model, stage, ydot);
-  accelerations(model, stage, input, zdot);
 }
 
 }  // namespace detail
@@ -294,8 +315,8 @@ template <class Real> JOURDAIN_FUNCTION
 void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[7]) noexcept {
   Real s0, c0, t4, t5, t18, t19, s3, c3;
   detail::sine_cosine4(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], t18, t19, state.y[3], s3, c3);
-  Real t33, t34, s5, c5;
-  detail::sine_cosine2(state.y[4], t33, t34, state.y[5], s5, c5);
+  Real t33, t34, s5, c5, t79, t80;
+  detail::sine_cosine3(state.y[4], t33, t34, state.y[5], s5, c5, state.y[6], t79, t80);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.19485571585149872) - s0 * Real(0.11249999999999999);
@@ -316,8 +337,6 @@ void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[7]
   const Real pin2ax1_y = r1_y + pin2ax2_y;
   const Real pin2bx_y = s4 * Real(0.19485571585149872) + c4 * Real(0.11249999999999999);
   const Real pin2bx4_y = pin2bx_y + (s3 * Real(0.19485571585149872) - c3 * Real(0.11249999999999999));
-  Real t79, t80;
-  detail::sine_cosine(state.y[6], t79, t80);
   const Real s6 = c5 * t79 + s5 * t80;
   const Real c6 = s5 * t79 - c5 * t80;
   const Real r6_x = s5 * Real(0.225);
@@ -428,8 +447,8 @@ template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[3][3]) noexcept {
   Real s0, c0, t4, t5, t18, t19, s3, c3;
   detail::sine_cosine4(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], t18, t19, state.y[3], s3, c3);
-  Real t33, t34, s5, c5;
-  detail::sine_cosine2(state.y[4], t33, t34, state.y[5], s5, c5);
+  Real t33, t34, s5, c5, t79, t80;
+  detail::sine_cosine3(state.y[4], t33, t34, state.y[5], s5, c5, state.y[6], t79, t80);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.19485571585149872) - s0 * Real(0.11249999999999999);
@@ -452,8 +471,6 @@ void mass_matrix(const Model<Real>& model, const State<Real>& state, Real (&M)[3
   const Real pin2ax1_y = r1_y + pin2ax2_y;
   const Real pin2bx_y = s4 * Real(0.19485571585149872) + c4 * Real(0.11249999999999999);
   const Real pin2bx4_y = r4_y + pin2bx_y;
-  Real t79, t80;
-  detail::sine_cosine(state.y[6], t79, t80);
   const Real s6 = c5 * t79 + s5 * t80;
   const Real c6 = s5 * t79 - c5 * t80;
   const Real r6_x = s5 * Real(0.225);
@@ -591,8 +608,8 @@ template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[3]) noexcept {
   Real s0, c0, t4, t5, t18, t19, s3, c3;
   detail::sine_cosine4(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], t18, t19, state.y[3], s3, c3);
-  Real t33, t34, s5, c5;
-  detail::sine_cosine2(state.y[4], t33, t34, state.y[5], s5, c5);
+  Real t33, t34, s5, c5, t79, t80;
+  detail::sine_cosine3(state.y[4], t33, t34, state.y[5], s5, c5, state.y[6], t79, t80);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.19485571585149872) - s0 * Real(0.11249999999999999);
@@ -615,8 +632,6 @@ void k_bar(const Model<Real>& model, const State<Real>& state, Real (&k)[3]) noe
   const Real pin2ax1_y = r1_y + pin2ax2_y;
   const Real pin2bx_y = s4 * Real(0.19485571585149872) + c4 * Real(0.11249999999999999);
   const Real pin2bx4_y = r4_y + pin2bx_y;
-  Real t79, t80;
-  detail::sine_cosine(state.y[6], t79, t80);
   const Real s6 = c5 * t79 + s5 * t80;
   const Real c6 = s5 * t79 - c5 * t80;
   const Real r6_x = s5 * Real(0.225);
@@ -808,8 +823,8 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
     (&zdot)[3]) noexcept {
   Real s0, c0, t4, t5, t18, t19, s3, c3;
   detail::sine_cosine4(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], t18, t19, state.y[3], s3, c3);
-  Real t33, t34, s5, c5;
-  detail::sine_cosine2(state.y[4], t33, t34, state.y[5], s5, c5);
+  Real t33, t34, s5, c5, t79, t80;
+  detail::sine_cosine3(state.y[4], t33, t34, state.y[5], s5, c5, state.y[6], t79, t80);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.19485571585149872) - s0 * Real(0.11249999999999999);
@@ -832,8 +847,6 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real pin2ax1_y = r1_y + pin2ax2_y;
   const Real pin2bx_y = s4 * Real(0.19485571585149872) + c4 * Real(0.11249999999999999);
   const Real pin2bx4_y = r4_y + pin2bx_y;
-  Real t79, t80;
-  detail::sine_cosine(state.y[6], t79, t80);
   const Real s6 = c5 * t79 + s5 * t80;
   const Real c6 = s5 * t79 - c5 * t80;
   const Real r6_x = s5 * Real(0.225);
@@ -1055,8 +1068,8 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
     (&tau)[3]) noexcept {
   Real s0, c0, t4, t5, t18, t19, s3, c3;
   detail::sine_cosine4(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], t18, t19, state.y[3], s3, c3);
-  Real t33, t34, s5, c5;
-  detail::sine_cosine2(state.y[4], t33, t34, state.y[5], s5, c5);
+  Real t33, t34, s5, c5, t79, t80;
+  detail::sine_cosine3(state.y[4], t33, t34, state.y[5], s5, c5, state.y[6], t79, t80);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.19485571585149872) - s0 * Real(0.11249999999999999);
@@ -1079,8 +1092,6 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real pin2ax1_y = r1_y + pin2ax2_y;
   const Real pin2bx_y = s4 * Real(0.19485571585149872) + c4 * Real(0.11249999999999999);
   const Real pin2bx4_y = r4_y + pin2bx_y;
-  Real t79, t80;
-  detail::sine_cosine(state.y[6], t79, t80);
   const Real s6 = c5 * t79 + s5 * t80;
   const Real c6 = s5 * t79 - c5 * t80;
   const Real r6_x = s5 * Real(0.225);
@@ -1279,8 +1290,8 @@ template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept {
   Real s0, c0, t4, t5, t18, t19, s3, c3;
   detail::sine_cosine4(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], t18, t19, state.y[3], s3, c3);
-  Real t33, t34, s5, c5;
-  detail::sine_cosine2(state.y[4], t33, t34, state.y[5], s5, c5);
+  Real t33, t34, s5, c5, t79, t80;
+  detail::sine_cosine3(state.y[4], t33, t34, state.y[5], s5, c5, state.y[6], t79, t80);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.19485571585149872) - s0 * Real(0.11249999999999999);
@@ -1303,8 +1314,6 @@ Real kinetic_energy(const Model<Real>& model, const State<Real>& state) noexcept
   const Real pin2ax1_y = r1_y + pin2ax2_y;
   const Real pin2bx_y = s4 * Real(0.19485571585149872) + c4 * Real(0.11249999999999999);
   const Real pin2bx4_y = r4_y + pin2bx_y;
-  Real t79, t80;
-  detail::sine_cosine(state.y[6], t79, t80);
   const Real s6 = c5 * t79 + s5 * t80;
   const Real c6 = s5 * t79 - c5 * t80;
   const Real r6_x = s5 * Real(0.225);
@@ -1450,8 +1459,8 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
     {
   Real s0, c0, t4, t5, t18, t19, s3, c3;
   detail::sine_cosine4(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], t18, t19, state.y[3], s3, c3);
-  Real t33, t34, s5, c5;
-  detail::sine_cosine2(state.y[4], t33, t34, state.y[5], s5, c5);
+  Real t33, t34, s5, c5, t79, t80;
+  detail::sine_cosine3(state.y[4], t33, t34, state.y[5], s5, c5, state.y[6], t79, t80);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.19485571585149872) - s0 * Real(0.11249999999999999);
@@ -1472,8 +1481,6 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
   const Real pin2ax1_y = r1_y + pin2ax2_y;
   const Real pin2bx_y = s4 * Real(0.19485571585149872) + c4 * Real(0.11249999999999999);
   const Real pin2bx4_y = pin2bx_y + (s3 * Real(0.19485571585149872) - c3 * Real(0.11249999999999999));
-  Real t79, t80;
-  detail::sine_cosine(state.y[6], t79, t80);
   const Real s6 = c5 * t79 + s5 * t80;
   const Real c6 = s5 * t79 - c5 * t80;
   const Real r6_x = s5 * Real(0.225);
@@ -1848,8 +1855,8 @@ void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)
     noexcept {
   Real s0, c0, t4, t5, t13, t14, s3, c3;
   detail::sine_cosine4(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], t13, t14, state.y[3], s3, c3);
-  Real t25, t26, s5, c5;
-  detail::sine_cosine2(state.y[4], t25, t26, state.y[5], s5, c5);
+  Real t25, t26, s5, c5, t73, t74;
+  detail::sine_cosine3(state.y[4], t25, t26, state.y[5], s5, c5, state.y[6], t73, t74);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   const Real s2 = c1 * t13 - s1 * t14;
@@ -1864,8 +1871,6 @@ void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)
   const Real t62 = Real(0.19485571585149872) * t46 + t43 * Real(0.11249999999999999);
   const Real pin2d_y = c2 * Real(1.0546217409559561e-17) + t62 + (Real(0.19485571585149872) * t40 +
       Real(1.3877787807814457e-16) - (s2 * Real(0.13856406460551018) + t36 * Real(0.11249999999999999)));
-  Real t73, t74;
-  detail::sine_cosine(state.y[6], t73, t74);
   const Real pin3d_x = t49 - c2 * Real(0.06928203230275509) + (s2 * Real(0.12) - ((s5 * t74 + (s5 + c5 * t73))
       * Real(0.225) + Real(0.3031088913245535)));
   const Real pin3d_y = t62 - s2 * Real(0.06928203230275509) - (c2 * Real(0.12) - (Real(0.225) * (c5 * t74 +
@@ -1885,8 +1890,8 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
     (&lambda)[4]) noexcept {
   Real s0, c0, t4, t5, t18, t19, s3, c3;
   detail::sine_cosine4(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], t18, t19, state.y[3], s3, c3);
-  Real t33, t34, s5, c5;
-  detail::sine_cosine2(state.y[4], t33, t34, state.y[5], s5, c5);
+  Real t33, t34, s5, c5, t79, t80;
+  detail::sine_cosine3(state.y[4], t33, t34, state.y[5], s5, c5, state.y[6], t79, t80);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   const Real r1_x = c0 * Real(0.19485571585149872) - s0 * Real(0.11249999999999999);
@@ -1909,8 +1914,6 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real pin2ax1_y = r1_y + pin2ax2_y;
   const Real pin2bx_y = s4 * Real(0.19485571585149872) + c4 * Real(0.11249999999999999);
   const Real pin2bx4_y = r4_y + pin2bx_y;
-  Real t79, t80;
-  detail::sine_cosine(state.y[6], t79, t80);
   const Real s6 = c5 * t79 + s5 * t80;
   const Real c6 = s5 * t79 - c5 * t80;
   const Real r6_x = s5 * Real(0.225);
@@ -2162,21 +2165,27 @@ template <class Real, class InputAt> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const InputAt& input, Real h) noexcept {
   constexpr int ny = Model<Real>::position_count, nz = Model<Real>::velocity_count;
   const Real half = Real(0.5) * h;
-  State<Real> stage;
-  Real v1[ny], v2[ny], v3[ny], v4[ny], a1[nz], a2[nz], a3[nz], a4[nz];
-  detail::rates(model, state, input, v1, a1);
+  State<Real> stage, next;
+  Real v1[ny], v2[ny], v3[ny], v4[ny];
+  Real a1[nz], a2[nz], a3[nz], a4[nz];
   stage.t = state.t + half;
+  position_rate(model, state, v1);
   for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + half * v1[i];
+  detail::accelerations(model, state, input, a1);
   for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + half * a1[i];
-  detail::rates(model, stage, input, v2, a2);
-  for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + half * v2[i];
-  for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + half * a2[i];
-  detail::rates(model, stage, input, v3, a3);
+  next.t = state.t + half;
+  position_rate(model, stage, v2);
+  for (int i = 0; i < ny; ++i) next.y[i] = state.y[i] + half * v2[i];
+  detail::accelerations(model, stage, input, a2);
+  for (int i = 0; i < nz; ++i) next.z[i] = state.z[i] + half * a2[i];
   stage.t = state.t + h;
+  position_rate(model, next, v3);
   for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + h * v3[i];
+  detail::accelerations(model, next, input, a3);
   for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + h * a3[i];
-  detail::rates(model, stage, input, v4, a4);
   const Real sixth = h / Real(6.0);
+  position_rate(model, stage, v4);
+  detail::accelerations(model, stage, input, a4);
   for (int i = 0; i < ny; ++i)
     state.y[i] = state.y[i] + sixth * (v1[i] + Real(2.0) * (v2[i] + v3[i]) + v4[i]);
   for (int i = 0; i < nz; ++i)

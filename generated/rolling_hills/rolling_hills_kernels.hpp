@@ -183,77 +183,52 @@ void sine_cosine2(const Real& x0, Real& s0, Real& c0, const Real& x1, Real& s1, 
   sine_cosine(x0, s0, c0);
   sine_cosine(x1, s1, c1);
 }
-template <class Real> JOURDAIN_FUNCTION
-void sine_cosine4(const Real& x0, Real& s0, Real& c0, const Real& x1, Real& s1, Real& c1,
-                  const Real& x2, Real& s2, Real& c2, const Real& x3, Real& s3, Real& c3) noexcept {
-  sine_cosine(x0, s0, c0);
-  sine_cosine(x1, s1, c1);
-  sine_cosine(x2, s2, c2);
-  sine_cosine(x3, s3, c3);
-}
 #if !defined(JOURDAIN_LIBRARY_SINES)
-JOURDAIN_FUNCTION inline void sine_cosine2(const double& x0, double& s0, double& c0,
-                                           const double& x1, double& s1, double& c1) noexcept {
 #if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
-  if (is_in_range(x0) && is_in_range(x1)) {
-    typedef double Lanes __attribute__((vector_size(16)));
-    typedef unsigned long long Bits __attribute__((vector_size(16)));
-    Lanes s, c;
-    sine_cosine_in_range<Lanes, Bits>(Lanes{x0, x1}, s, c);
-    s0 = s[0];
-    c0 = c[0];
-    s1 = s[1];
-    c1 = c[1];
-    return;
+// Seldom: where an angle of several is out of range, or no number.
+template <class Lanes> __attribute__((noinline, cold))
+void sine_cosine_by_lane(const Lanes& x, Lanes& s, Lanes& c) noexcept {
+  for (unsigned i = 0; i < sizeof(x) / sizeof(double); ++i) {
+    double sine, cosine;
+    sine_cosine(x[i], sine, cosine);
+    s[i] = sine;
+    c[i] = cosine;
   }
-#endif
-  sine_cosine(x0, s0, c0);
-  sine_cosine(x1, s1, c1);
 }
-JOURDAIN_FUNCTION inline void sine_cosine4(const double& x0, double& s0, double& c0,
-                                           const double& x1, double& s1, double& c1,
-                                           const double& x2, double& s2, double& c2,
-                                           const double& x3, double& s3, double& c3) noexcept {
+#endif
+#endif
+#if !defined(JOURDAIN_LIBRARY_SINES)
 #if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
-  if (is_in_range(x0) && is_in_range(x1) && is_in_range(x2) && is_in_range(x3)) {
-    typedef double Lanes __attribute__((vector_size(32)));
-    typedef unsigned long long Bits __attribute__((vector_size(32)));
-    Lanes s, c;
-    sine_cosine_in_range<Lanes, Bits>(Lanes{x0, x1, x2, x3}, s, c);
-    s0 = s[0];
-    c0 = c[0];
-    s1 = s[1];
-    c1 = c[1];
-    s2 = s[2];
-    c2 = c[2];
-    s3 = s[3];
-    c3 = c[3];
-    return;
+JOURDAIN_FUNCTION __attribute__((always_inline))
+inline void sine_cosine2(const double& x0, double& s0, double& c0,
+                         const double& x1, double& s1, double& c1) noexcept {
+  typedef double Lanes __attribute__((vector_size(16)));
+  typedef unsigned long long Bits __attribute__((vector_size(16)));
+  const unsigned long long one = 1, largest = 4742290407621132288;
+  const Lanes x = {x0, x1};
+  const Bits above = largest - (__builtin_bit_cast(Bits, x) & ~(one << 63));
+  Lanes s, c;
+  if ((above[0] | above[1]) >> 63) {
+    const Lanes each = x;
+    Lanes sines, cosines;
+    sine_cosine_by_lane(each, sines, cosines);
+    s = sines;
+    c = cosines;
+  } else {
+    sine_cosine_in_range<Lanes, Bits>(x, s, c);
   }
-#endif
-  sine_cosine(x0, s0, c0);
-  sine_cosine(x1, s1, c1);
-  sine_cosine(x2, s2, c2);
-  sine_cosine(x3, s3, c3);
+  s0 = s[0];
+  c0 = c[0];
+  s1 = s[1];
+  c1 = c[1];
 }
 #endif
-
-template <class Real> JOURDAIN_FUNCTION
-void velocities(const Model<Real>& model, const State<Real>& stage, Real (&ydot)[7]) noexcept {
-  position_rate(model, stage, ydot);
-}
+#endif
 
 template <class Real> JOURDAIN_FUNCTION
 void accelerations(const Model<Real>& model, const State<Real>& stage, const Input<Real>& input,
                    Real (&zdot)[6]) noexcept {
   forward_dynamics(model, stage, input, zdot);
-}
-
-template <class Real> JOURDAIN_FUNCTION
-void rates(const Model<Real>& model, const State<Real>& stage, const Input<Real>& input, Real (&ydot)[7],
-           Real (&zdot)[6]) noexcept {
-  velocities(model, stage, ydot);
-  accelerations(model, stage, input, zdot);
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -2175,19 +2150,24 @@ template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept {
   constexpr int ny = Model<Real>::position_count, nz = Model<Real>::velocity_count;
   const Real half = Real(0.5) * h;
-  State<Real> stage;
-  Real v1[ny], v2[ny], v3[ny], v4[ny], a1[nz], a2[nz], a3[nz], a4[nz];
-  detail::rates(model, state, input, v1, a1);
+  State<Real> stage, next;
+  Real v1[ny], v2[ny], v3[ny], v4[ny];
+  Real a1[nz], a2[nz], a3[nz], a4[nz];
+  position_rate(model, state, v1);
   for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + half * v1[i];
+  detail::accelerations(model, state, input, a1);
   for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + half * a1[i];
-  detail::rates(model, stage, input, v2, a2);
-  for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + half * v2[i];
-  for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + half * a2[i];
-  detail::rates(model, stage, input, v3, a3);
+  position_rate(model, stage, v2);
+  for (int i = 0; i < ny; ++i) next.y[i] = state.y[i] + half * v2[i];
+  detail::accelerations(model, stage, input, a2);
+  for (int i = 0; i < nz; ++i) next.z[i] = state.z[i] + half * a2[i];
+  position_rate(model, next, v3);
   for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + h * v3[i];
+  detail::accelerations(model, next, input, a3);
   for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + h * a3[i];
-  detail::rates(model, stage, input, v4, a4);
   const Real sixth = h / Real(6.0);
+  position_rate(model, stage, v4);
+  detail::accelerations(model, stage, input, a4);
   for (int i = 0; i < ny; ++i)
     state.y[i] = state.y[i] + sixth * (v1[i] + Real(2.0) * (v2[i] + v3[i]) + v4[i]);
   for (int i = 0; i < nz; ++i)

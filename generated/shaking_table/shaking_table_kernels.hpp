@@ -39,22 +39,10 @@ Input<Real> input_at(const InputAt& sampled, const State<Real>& stage) noexcept 
   return sampled(stage);
 }
 
-template <class Real> JOURDAIN_FUNCTION
-void velocities(const Model<Real>& model, const State<Real>& stage, Real (&ydot)[2]) noexcept {
-  position_rate(model, stage, ydot);
-}
-
 template <class Real, class Inputs> JOURDAIN_FUNCTION
 void accelerations(const Model<Real>& model, const State<Real>& stage, const Inputs& input,
                    Real (&zdot)[4]) noexcept {
   forward_dynamics(model, stage, input_at(input, stage), zdot);
-}
-
-template <class Real, class Inputs> JOURDAIN_FUNCTION
-void rates(const Model<Real>& model, const State<Real>& stage, const Inputs& input, Real (&ydot)[2],
-           Real (&zdot)[4]) noexcept {
-  velocities(model, stage, ydot);
-  accelerations(model, stage, input, zdot);
 }
 
 }  // namespace detail
@@ -228,21 +216,27 @@ template <class Real, class InputAt> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const InputAt& input, Real h) noexcept {
   constexpr int ny = Model<Real>::position_count, nz = Model<Real>::velocity_count;
   const Real half = Real(0.5) * h;
-  State<Real> stage;
-  Real v1[ny], v2[ny], v3[ny], v4[ny], a1[nz], a2[nz], a3[nz], a4[nz];
-  detail::rates(model, state, input, v1, a1);
+  State<Real> stage, next;
+  Real v1[ny], v2[ny], v3[ny], v4[ny];
+  Real a1[nz], a2[nz], a3[nz], a4[nz];
   stage.t = state.t + half;
+  position_rate(model, state, v1);
   for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + half * v1[i];
+  detail::accelerations(model, state, input, a1);
   for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + half * a1[i];
-  detail::rates(model, stage, input, v2, a2);
-  for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + half * v2[i];
-  for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + half * a2[i];
-  detail::rates(model, stage, input, v3, a3);
+  next.t = state.t + half;
+  position_rate(model, stage, v2);
+  for (int i = 0; i < ny; ++i) next.y[i] = state.y[i] + half * v2[i];
+  detail::accelerations(model, stage, input, a2);
+  for (int i = 0; i < nz; ++i) next.z[i] = state.z[i] + half * a2[i];
   stage.t = state.t + h;
+  position_rate(model, next, v3);
   for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + h * v3[i];
+  detail::accelerations(model, next, input, a3);
   for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + h * a3[i];
-  detail::rates(model, stage, input, v4, a4);
   const Real sixth = h / Real(6.0);
+  position_rate(model, stage, v4);
+  detail::accelerations(model, stage, input, a4);
   for (int i = 0; i < ny; ++i)
     state.y[i] = state.y[i] + sixth * (v1[i] + Real(2.0) * (v2[i] + v3[i]) + v4[i]);
   for (int i = 0; i < nz; ++i)

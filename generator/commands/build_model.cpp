@@ -106,11 +106,10 @@ std::string shim(const std::string& name, const NumberText& number, const Compil
     rates = "  const State state = to_state(t, y, z);\n  Real zd[Model::velocity_count];\n";
     rates += fmt::format("  ::{}::forward_dynamics(model(), state, to_input(u), zd);\n", name);
     rates += "  write(zd, zdot, Model::velocity_count);\n";
+    if (!scene.has_rate()) rates += "  write(state.z, ydot, Model::velocity_count);\n";
+  }
+  if (has(compiled, FunctionId::kPositionRate)) {
     rates += fmt::format(
-        "  Real yd[Model::position_count];\n  ::{}::detail::velocities(model(), state, yd);\n", name);
-    rates += "  write(yd, ydot, Model::position_count);\n";
-  } else if (has(compiled, FunctionId::kPositionRate)) {
-    rates = fmt::format(
         "  Real yd[Model::position_count];\n  ::{}::position_rate(model(), to_state(t, y, z), yd);\n", name);
     rates += "  write(yd, ydot, Model::position_count);\n";
   }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
 
 #include "emit/parameters.hpp"
@@ -11,7 +12,7 @@ namespace jourdain::emit {
 
 namespace {
 
-const Expression h = name("h"), state = name("state"), stage = name("stage"), history = name("history");
+const Expression h = name("h"), state = name("state"), history = name("history");
 
 /// Rates are v, a or v1, a1, v2, a2, …: of y and of z.
 using Rates = std::function<Expression(int)>;
@@ -22,7 +23,7 @@ using Combination = std::function<Expression(const Rates&)>;
 /// Statements, as they are added.
 class Step {
  public:
-  explicit Step(bool clock) : clock_(clock) {}
+  explicit Step(const programs::SceneFacts& scene) : clock_(scene.clock), has_rate_(scene.has_rate()) {}
 
   bool has_clock() const { return clock_; }
   void add(Statement statement) { statements_.push_back(std::move(statement)); }
@@ -33,24 +34,65 @@ class Step {
                  {{"ny", {}, position_count()}, {"nz", {}, velocity_count()}}}});
   }
 
-  /// No copy of the state: its wide loads would wait for narrow stores of the step before.
-  void declare_stage() { add({Declare{struct_type("State"), Declare::Change::kFree, {{"stage"}}}}); }
-
-  /// Arrays v1, …, a1, …; a single one is without number.
-  void rate_arrays(int stages, bool one_line = true) {
-    std::vector<Variable> v, a;
-    for (int k = 1; k <= stages; ++k) {
-      v.push_back({numbered("v", stages == 1 ? 0 : k), {name("ny")}});
-      a.push_back({numbered("a", stages == 1 ? 0 : k), {name("nz")}});
-    }
-    if (one_line) v.insert(v.end(), a.begin(), a.end());
-    add({Declare{kRealType, Declare::Change::kFree, v}});
-    if (!one_line) add({Declare{kRealType, Declare::Change::kFree, a}});
+  /// Where stage k of the rates is: the first is the state. Velocities that are the rates of positions stay until the
+  /// step ends; else stages take turns. No copies of either: wide loads would wait for narrow stores.
+  Expression at(int k) const {
+    if (k < 2) return state;
+    return name(!has_rate_ ? fmt::format("stage{}", k) : k % 2 == 0 ? "stage" : "next");
   }
 
-  void rates(const Expression& at, int k = 0) {
-    add({Call{
-        "rates", {name("model"), at, name("input"), name(numbered("v", k)), name(numbered("a", k))}, true}});
+  void declare_stages(int last) {
+    Declare declare{struct_type("State"), Declare::Change::kFree, {}};
+    for (int k = 2; k <= (has_rate_ ? std::min(last, 3) : last); ++k)
+      declare.variables.push_back({at(k).name});
+    add({declare});
+  }
+
+  /// Arrays v1, …, a1, …; a single one is without number. Of v where it is computed, or `kept`.
+  void rate_arrays(int stages, bool kept = false) {
+    const auto declare = [&](const char* letter, const char* count) {
+      Declare declare{kRealType, Declare::Change::kFree, {}};
+      for (int k = 1; k <= stages; ++k)
+        declare.variables.push_back({numbered(letter, stages == 1 ? 0 : k), {name(count)}});
+      add({declare});
+    };
+    if (has_rate_ || kept) declare("v", "ny");
+    declare("a", "nz");
+  }
+
+  /// At stage k, or v and a at the state.
+  void position_rates(int k = 0) {
+    if (has_rate_) add({Call{"position_rate", {name("model"), at(k), name(numbered("v", k))}}});
+  }
+  void accelerations(int k = 0) {
+    add({Call{"accelerations", {name("model"), at(k), name("input"), name(numbered("a", k))}, true}});
+  }
+  void rates(int k = 0) {
+    position_rates(k);
+    accelerations(k);
+  }
+
+  /// Rates that are needed after the state has changed.
+  void kept_rates() {
+    const Expression i = name("i");
+    if (!has_rate_) add(loop("i", name("ny"), {set(name("v")[i], state.dot("z")[i])}));
+    rates();
+  }
+
+  /// The rates at stage k, and the next one = state + factor × combination. Positions go ahead of the accelerations,
+  /// which they do not need: a processor takes the sines of the next stage meanwhile, as long as no compiler puts the
+  /// stores of both together in one vector.
+  void stage(int k, const Expression& factor, const Combination& combination) {
+    position_rates(k);
+    positions(at(k + 1), factor, combination);
+    accelerations(k);
+    velocities(at(k + 1), factor, combination);
+  }
+
+  /// The rates at the last stage, and the state after it; not before, as whoever gives inputs may look at it.
+  void last_stage(int k, const Expression& factor, const Combination& combination) {
+    rates(k);
+    advance(factor, combination);
   }
 
   Expression scalar(const std::string& variable, const Expression& value) {
@@ -62,13 +104,15 @@ class Step {
     if (clock_) add(set(target.dot("t"), state.dot("t") + change));
   }
 
-  /// target = state + factor × combination, for y and z.
-  void advance(const Expression& target, const Expression& factor, const Combination& combination) {
-    positions(target, factor, combination);
-    velocities(target, factor, combination);
+  /// state += factor × combination.
+  void advance(const Expression& factor, const Combination& combination) {
+    positions(state, factor, combination);
+    velocities(state, factor, combination);
   }
   void positions(const Expression& target, const Expression& factor, const Combination& combination) {
-    entries(target, "y", "ny", factor, combination([](int k) { return name(numbered("v", k))[name("i")]; }));
+    entries(target, "y", "ny", factor, combination([this](int k) {
+              return (has_rate_ ? name(numbered("v", k)) : at(k).dot("z"))[name("i")];
+            }));
   }
   void velocities(const Expression& target, const Expression& factor, const Combination& combination) {
     entries(target, "z", "nz", factor, combination([](int k) { return name(numbered("a", k))[name("i")]; }));
@@ -87,7 +131,7 @@ class Step {
     add(loop("i", name(count), {set(target.dot(member)[i], state.dot(member)[i] + factor * sum)}));
   }
 
-  bool clock_;
+  bool clock_, has_rate_;
   Statements statements_;
 };
 
@@ -95,49 +139,44 @@ Expression first(const Rates& k) { return k(0); }
 
 void euler(Step& step) {
   step.rate_arrays(1);
-  step.rates(state);
-  step.advance(state, h, first);
+  step.rates();
+  step.advance(h, first);
   step.time(state, h);
 }
 
 /// Velocities first, positions with the new velocities.
 void semi_implicit_euler(Step& step) {
   step.rate_arrays(1);
-  step.add({Call{"accelerations", {name("model"), state, name("input"), name("a")}, true}});
+  step.accelerations();
   step.velocities(state, h, first);
-  step.add({Call{"velocities", {name("model"), state, name("v")}, true}});
+  step.position_rates();
   step.positions(state, h, first);
   step.time(state, h);
 }
 
 void heun(Step& step) {
-  step.declare_stage();
+  step.declare_stages(2);
   step.rate_arrays(2);
-  step.rates(state, 1);
-  step.time(stage, h);
-  step.advance(stage, h, [](const Rates& k) { return k(1); });
-  step.rates(stage, 2);
+  step.time(step.at(2), h);
+  step.stage(1, h, [](const Rates& k) { return k(1); });
   const Expression half = step.scalar("half", 0.5 * h);
-  step.advance(state, half, [](const Rates& k) { return k(1) + k(2); });
+  step.last_stage(2, half, [](const Rates& k) { return k(1) + k(2); });
   step.time(state, h);
 }
 
 /// W. Kutta, Zeitschrift für Mathematik und Physik 46 (1901).
 void rk4(Step& step) {
   const Expression half = step.scalar("half", 0.5 * h);
-  step.declare_stage();
+  step.declare_stages(4);
   step.rate_arrays(4);
-  step.rates(state, 1);
-  step.time(stage, half);
-  step.advance(stage, half, [](const Rates& k) { return k(1); });
-  step.rates(stage, 2);
-  step.advance(stage, half, [](const Rates& k) { return k(2); });
-  step.rates(stage, 3);
-  step.time(stage, h);
-  step.advance(stage, h, [](const Rates& k) { return k(3); });
-  step.rates(stage, 4);
+  step.time(step.at(2), half);
+  step.stage(1, half, [](const Rates& k) { return k(1); });
+  step.time(step.at(3), half);
+  step.stage(2, half, [](const Rates& k) { return k(2); });
+  step.time(step.at(4), h);
+  step.stage(3, h, [](const Rates& k) { return k(3); });
   const Expression sixth = step.scalar("sixth", h / 6.0);
-  step.advance(state, sixth, [](const Rates& k) { return k(1) + 2.0 * (k(2) + k(3)) + k(4); });
+  step.last_stage(4, sixth, [](const Rates& k) { return k(1) + 2.0 * (k(2) + k(3)) + k(4); });
   step.time(state, h);
 }
 
@@ -178,17 +217,15 @@ Combination combination(Step& step, const std::string& letter, const std::vector
 
 void runge_kutta(Step& step, const Tableau& tableau) {
   const std::size_t stages = tableau.b.size();
-  step.declare_stage();
-  step.rate_arrays(int(stages), false);
-  step.rates(state, 1);
-  for (std::size_t i = 0; i + 1 < stages; ++i) {
-    const Combination sum = combination(step, fmt::format("a{}", i + 2), tableau.A[i]);
-    const Fraction& node = tableau.nodes[i];
-    step.time(stage, node.numerator == node.denominator ? h : quotient(node) * h);
-    step.advance(stage, h, sum);
-    step.rates(stage, int(i) + 2);
+  step.declare_stages(int(stages));
+  step.rate_arrays(int(stages));
+  for (int k = 1; k < int(stages); ++k) {
+    const Combination sum = combination(step, fmt::format("a{}", k + 1), tableau.A[std::size_t(k) - 1]);
+    const Fraction& node = tableau.nodes[std::size_t(k) - 1];
+    step.time(step.at(k + 1), node.numerator == node.denominator ? h : quotient(node) * h);
+    step.stage(k, h, sum);
   }
-  step.advance(state, h, combination(step, "b", tableau.b));
+  step.last_stage(int(stages), h, combination(step, "b", tableau.b));
   step.time(state, h);
 }
 
@@ -208,8 +245,8 @@ void rk5(Step& step) {
 void adams_bashforth(Step& step, int earlier, const char* scale, const Expression& factor,
                      const Combination& sum) {
   const Expression i = name("i"), count = history.dot("count");
-  step.rate_arrays(1);
-  step.rates(state);
+  step.rate_arrays(1, true);
+  step.kept_rates();
   const auto remembered = [&](const char* member, const char* now) -> Rates {
     return [member, now, i](int k) { return k == 0 ? name(now)[i] : history.dot(member)[k - 1][i]; };
   };
@@ -252,10 +289,10 @@ constexpr std::pair<const char*, void (*)(Step&)> kMethods[] = {{"euler", euler}
 
 }  // namespace
 
-Statements explicit_step(const programs::Stepper& stepper, bool clock) {
+Statements explicit_step(const programs::Stepper& stepper, const programs::SceneFacts& scene) {
   for (const auto& [name, method] : kMethods)
     if (name == stepper.name) {
-      Step step(clock);
+      Step step(scene);
       step.counts();
       method(step);
       return step.take();

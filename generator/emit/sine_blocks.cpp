@@ -101,25 +101,24 @@ void add_block(Statements& to, const Statements& body, const std::vector<std::si
 
 }  // namespace
 
-std::optional<Statements> in_sine_blocks(const Statements& body) {
+std::optional<SineBlocks> in_sine_blocks(const Statements& body) {
   Beginning beginning(body);
   std::vector<std::size_t> pairs = beginning.pairs();
   if (pairs.size() < 2) return {};
-  pairs.resize(pairs.size() / 2 * 2);
+  if (pairs.size() % 4 == 1) pairs.pop_back();
   std::set<std::size_t> moved = beginning.early();
-  Statements result;
-  for (const std::size_t i : moved) result.push_back(body[i]);
-  for (std::size_t first = 0; first < pairs.size();) {
-    const std::size_t count = pairs.size() - first >= 4 ? 4 : 2;
-    add_block(result, body, pairs, first, count);
-    first += count;
+  SineBlocks result;
+  for (const std::size_t i : moved) result.body.push_back(body[i]);
+  for (std::size_t first = 0; first < pairs.size(); first += result.sizes.back()) {
+    result.sizes.push_back(std::min<std::size_t>(pairs.size() - first, 4));
+    add_block(result.body, body, pairs, first, result.sizes.back());
   }
   for (const std::size_t i : pairs) {
     moved.insert(i);
     moved.insert(beginning.declaration(std::get<SineCosine>(body[i].is).sine));
   }
   for (std::size_t i = 0; i < body.size(); ++i)
-    if (!moved.count(i)) result.push_back(body[i]);
+    if (!moved.count(i)) result.body.push_back(body[i]);
   return result;
 }
 

@@ -17,29 +17,17 @@ bool any_step(const std::vector<programs::FunctionInfo>& functions) {
                      [](const programs::FunctionInfo& f) { return f.shape == programs::Shape::kStep; });
 }
 
-/// The velocities of y at a stage, the accelerations, and both.
-std::vector<Function> rate_functions(const programs::SceneFacts& scene) {
-  const Expression model = name("model"), stage = name("stage"), ydot = name("ydot"), zdot = name("zdot"),
-                   i = name("i");
-  const Parameter of_model{struct_type("Model"), "model"}, at_stage{struct_type("State"), "stage"},
-      with_input{struct_type("Input"), "input", Access::kRead, {}, false, !scene.inputs.empty()},
-      to_ydot{kRealType, "ydot", Access::kWrite, {scene.positions.size()}},
-      to_zdot{kRealType, "zdot", Access::kWrite, {scene.velocities.size()}};
-  const Statement velocities = scene.has_rate()
-                                   ? Statement{Call{"position_rate", {model, stage, ydot}}}
-                                   : loop("i", position_count(), {set(ydot[i], stage.dot("z")[i])});
-  return {{"velocities", "", {of_model, at_stage, to_ydot}, {}, {velocities}},
-          {"accelerations",
-           "",
-           {of_model, at_stage, with_input, to_zdot},
-           {},
-           {{Call{"forward_dynamics", {model, stage, inputs_at(stage), zdot}}}}},
-          {"rates",
-           "",
-           {of_model, at_stage, with_input, to_ydot, to_zdot},
-           {},
-           {{Call{"velocities", {model, stage, ydot}, true}},
-            {Call{"accelerations", {model, stage, name("input"), zdot}, true}}}}};
+/// At a stage.
+Function accelerations(const programs::SceneFacts& scene) {
+  const Expression model = name("model"), stage = name("stage"), zdot = name("zdot");
+  return {"accelerations",
+          "",
+          {{struct_type("Model"), "model"},
+           {struct_type("State"), "stage"},
+           {struct_type("Input"), "input", Access::kRead, {}, false, !scene.inputs.empty()},
+           {kRealType, "zdot", Access::kWrite, {scene.velocities.size()}}},
+          {},
+          {{Call{"forward_dynamics", {model, stage, inputs_at(stage), zdot}}}}};
 }
 
 Function normalise() {
@@ -66,7 +54,7 @@ Statements step_body(const programs::SceneFacts& scene, const programs::Stepper&
     body = rosenbrock_step(scene, *method);
     if (!scene.dependents.empty()) corrections = scene.closings;
   } else {
-    body = explicit_step(stepper, scene.clock);
+    body = explicit_step(stepper, scene);
     for (const model::Tangent::Scalar& quaternion : scene.tangent.quaternions)
       body.push_back({Call{"normalise", {state.dot("y").from(quaternion.position)}, true}});
   }
@@ -82,7 +70,7 @@ Statements step_body(const programs::SceneFacts& scene, const programs::Stepper&
 Support step_support(const programs::SceneFacts& scene, const std::vector<programs::FunctionInfo>& functions,
                      const ir::Module& module) {
   if (!any_step(functions) || scene.velocities.empty()) return {};
-  Support support{{}, {}, rate_functions(scene)};
+  Support support{{}, {}, {accelerations(scene)}};
   if (!scene.tangent.quaternions.empty()) support.functions.push_back(normalise());
   const bool implicit = std::any_of(functions.begin(), functions.end(), [](const programs::FunctionInfo& f) {
     return f.stepper && f.stepper->implicit;

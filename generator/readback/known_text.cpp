@@ -250,7 +250,7 @@ const std::vector<KnownText>& known_texts(bool packs) {
     list.push_back(known("", "Time", kTime));
     list.push_back(known("detail", "Angle", std::string(kProductError) + kWideProductError + kAngle));
     list.push_back(sines());
-    list.push_back(known("detail", "", own_sine_blocks()));
+    for (const std::string& text : own_sine_blocks()) list.push_back(known("detail", "", text));
     list.push_back(known("detail", "", own_arctangent(), library_arctangent()));
     list.push_back(known("detail", kLanesType, lanes_text()));
     add_choosing_texts(list, false);
@@ -262,7 +262,7 @@ const std::vector<KnownText>& known_texts(bool packs) {
     list.push_back(
         known("detail", "Angle", for_packs(kProductError) + kPacksProductError + for_packs(kAngle)));
     list.push_back(sines());
-    list.push_back(known("detail", "", own_sine_blocks()));
+    for (const std::string& text : own_sine_blocks()) list.push_back(known("detail", "", text));
     list.push_back(known("detail", "", own_arctangent(), library_arctangent()));
     list.push_back(known("detail", kLanesType, lanes_text()));
     list.push_back(known("", "", kNumbers));

@@ -125,54 +125,120 @@ JOURDAIN_FUNCTION inline float cosine(float x) noexcept {
 )";
 }
 
-const char* own_sine_blocks() {
-  return R"(#if !defined(JOURDAIN_LIBRARY_SINES)
-JOURDAIN_FUNCTION inline void sine_cosine2(const double& x0, double& s0, double& c0,
-                                           const double& x1, double& s1, double& c1) noexcept {
+std::vector<std::string> own_sine_blocks() {
+  const char* const by_lane = R"(#if !defined(JOURDAIN_LIBRARY_SINES)
 #if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
-  if (is_in_range(x0) && is_in_range(x1)) {
-    typedef double Lanes __attribute__((vector_size(16)));
-    typedef unsigned long long Bits __attribute__((vector_size(16)));
-    Lanes s, c;
-    sine_cosine_in_range<Lanes, Bits>(Lanes{x0, x1}, s, c);
-    s0 = s[0];
-    c0 = c[0];
-    s1 = s[1];
-    c1 = c[1];
-    return;
+// Seldom: where an angle of several is out of range, or no number.
+template <class Lanes> __attribute__((noinline, cold))
+void sine_cosine_by_lane(const Lanes& x, Lanes& s, Lanes& c) noexcept {
+  for (unsigned i = 0; i < sizeof(x) / sizeof(double); ++i) {
+    double sine, cosine;
+    sine_cosine(x[i], sine, cosine);
+    s[i] = sine;
+    c[i] = cosine;
   }
-#endif
-  sine_cosine(x0, s0, c0);
-  sine_cosine(x1, s1, c1);
 }
-JOURDAIN_FUNCTION inline void sine_cosine4(const double& x0, double& s0, double& c0,
-                                           const double& x1, double& s1, double& c1,
-                                           const double& x2, double& s2, double& c2,
-                                           const double& x3, double& s3, double& c3) noexcept {
-#if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
-  if (is_in_range(x0) && is_in_range(x1) && is_in_range(x2) && is_in_range(x3)) {
-    typedef double Lanes __attribute__((vector_size(32)));
-    typedef unsigned long long Bits __attribute__((vector_size(32)));
-    Lanes s, c;
-    sine_cosine_in_range<Lanes, Bits>(Lanes{x0, x1, x2, x3}, s, c);
-    s0 = s[0];
-    c0 = c[0];
-    s1 = s[1];
-    c1 = c[1];
-    s2 = s[2];
-    c2 = c[2];
-    s3 = s[3];
-    c3 = c[3];
-    return;
-  }
 #endif
-  sine_cosine(x0, s0, c0);
-  sine_cosine(x1, s1, c1);
-  sine_cosine(x2, s2, c2);
-  sine_cosine(x3, s3, c3);
-}
 #endif
 )";
+  const char* const blocks[] = {R"(#if !defined(JOURDAIN_LIBRARY_SINES)
+#if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
+JOURDAIN_FUNCTION __attribute__((INLINED))
+inline void sine_cosine2(const double& x0, double& s0, double& c0,
+                         const double& x1, double& s1, double& c1) noexcept {
+  typedef double Lanes __attribute__((vector_size(16)));
+  typedef unsigned long long Bits __attribute__((vector_size(16)));
+  const unsigned long long one = 1, largest = 4742290407621132288;
+  const Lanes x = {x0, x1};
+  const Bits above = largest - (__builtin_bit_cast(Bits, x) & ~(one << 63));
+  Lanes s, c;
+  if ((above[0] | above[1]) >> 63) {
+    const Lanes each = x;
+    Lanes sines, cosines;
+    sine_cosine_by_lane(each, sines, cosines);
+    s = sines;
+    c = cosines;
+  } else {
+    sine_cosine_in_range<Lanes, Bits>(x, s, c);
+  }
+  s0 = s[0];
+  c0 = c[0];
+  s1 = s[1];
+  c1 = c[1];
+}
+#endif
+#endif
+)",
+                                R"(#if !defined(JOURDAIN_LIBRARY_SINES)
+#if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
+JOURDAIN_FUNCTION __attribute__((INLINED))
+inline void sine_cosine3(const double& x0, double& s0, double& c0,
+                         const double& x1, double& s1, double& c1,
+                         const double& x2, double& s2, double& c2) noexcept {
+  typedef double Lanes __attribute__((vector_size(32)));
+  typedef unsigned long long Bits __attribute__((vector_size(32)));
+  const unsigned long long one = 1, largest = 4742290407621132288;
+  const Lanes x = {x0, x1, x2, x2};
+  const Bits above = largest - (__builtin_bit_cast(Bits, x) & ~(one << 63));
+  Lanes s, c;
+  if ((above[0] | above[1] | above[2]) >> 63) {
+    const Lanes each = x;
+    Lanes sines, cosines;
+    sine_cosine_by_lane(each, sines, cosines);
+    s = sines;
+    c = cosines;
+  } else {
+    sine_cosine_in_range<Lanes, Bits>(x, s, c);
+  }
+  s0 = s[0];
+  c0 = c[0];
+  s1 = s[1];
+  c1 = c[1];
+  s2 = s[2];
+  c2 = c[2];
+}
+#endif
+#endif
+)",
+                                R"(#if !defined(JOURDAIN_LIBRARY_SINES)
+#if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
+JOURDAIN_FUNCTION __attribute__((INLINED))
+inline void sine_cosine4(const double& x0, double& s0, double& c0,
+                         const double& x1, double& s1, double& c1,
+                         const double& x2, double& s2, double& c2,
+                         const double& x3, double& s3, double& c3) noexcept {
+  typedef double Lanes __attribute__((vector_size(32)));
+  typedef unsigned long long Bits __attribute__((vector_size(32)));
+  const unsigned long long one = 1, largest = 4742290407621132288;
+  const Lanes x = {x0, x1, x2, x3};
+  const Bits above = largest - (__builtin_bit_cast(Bits, x) & ~(one << 63));
+  Lanes s, c;
+  if ((above[0] | above[1] | above[2] | above[3]) >> 63) {
+    const Lanes each = x;
+    Lanes sines, cosines;
+    sine_cosine_by_lane(each, sines, cosines);
+    s = sines;
+    c = cosines;
+  } else {
+    sine_cosine_in_range<Lanes, Bits>(x, s, c);
+  }
+  s0 = s[0];
+  c0 = c[0];
+  s1 = s[1];
+  c1 = c[1];
+  s2 = s[2];
+  c2 = c[2];
+  s3 = s[3];
+  c3 = c[3];
+}
+#endif
+#endif
+)"};
+  std::vector<std::string> texts = {by_lane};
+  for (const std::string block : blocks)
+    for (const char* inlined : {"always_inline", "noinline"})
+      texts.push_back(std::string(block).replace(block.find("INLINED"), 7, inlined));
+  return texts;
 }
 
 const char* own_arctangent() {

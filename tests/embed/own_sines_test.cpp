@@ -21,10 +21,11 @@ support::ProcessResult compile(const std::string& compiler, const std::string& f
   return support::run_process(command);
 }
 
-/// Every angle goes through blocks of four and of two and alone, with both signs. Prints how many results differ
-/// between these, a digest of all bits and, with QUAD, the largest error in units of the last place. HARD are those
-/// nearest to a multiple of pi/2 in each binade from 1 to 2^30: of the sums of multiples of the last two denominators
-/// below 2^53 in the continued fraction of 2^(e+1)/pi, the one in the binade whose fraction is nearest to a whole.
+/// Every angle goes through blocks of four, of three and of two and alone, with both signs. Prints how many results
+/// differ between these, a digest of all bits and, with QUAD, the largest error in units of the last place. HARD are
+/// those nearest to a multiple of pi/2 in each binade from 1 to 2^30: of the sums of multiples of the last two
+/// denominators below 2^53 in the continued fraction of 2^(e+1)/pi, the one in the binade whose fraction is nearest to
+/// a whole.
 constexpr const char* kAngles = R"(
 #include <math.h>
 #include <stdint.h>
@@ -33,9 +34,9 @@ constexpr const char* kAngles = R"(
 #ifdef QUAD
 #include <quadmath.h>
 #endif
-#include "double_pendulum_kernels.hpp"
+#include "squeezer_kernels.hpp"
 
-namespace own = double_pendulum::detail;
+namespace own = squeezer::detail;
 static uint64_t seed = 88172645463325252u, digest = 1469598103934665603u;
 static int different = 0;
 static double worst = 0;
@@ -62,12 +63,16 @@ static void compare(double value, __float128 exact) {
 #endif
 static void four(double x0, double x1, double x2, double x3) {
   const double x[4] = {x0, x1, x2, x3};
-  double s[4], c[4], s2[4], c2[4];
+  double s[4], c[4], s2[4], c2[4], s3[4], c3[4];
   own::sine_cosine4(x0, s[0], c[0], x1, s[1], c[1], x2, s[2], c[2], x3, s[3], c[3]);
   for (int i = 0; i < 4; i += 2) own::sine_cosine2(x[i], s2[i], c2[i], x[i + 1], s2[i + 1], c2[i + 1]);
+  own::sine_cosine3(x3, s3[3], c3[3], x1, s3[1], c3[1], x0, s3[0], c3[0]);
+  own::sine_cosine3(x1, s3[1], c3[1], x2, s3[2], c3[2], x3, s3[3], c3[3]);
   for (int i = 0; i < 4; ++i) {
     same(s2[i], s[i]);
     same(c2[i], c[i]);
+    same(s3[i], s[i]);
+    same(c3[i], c[i]);
     same(own::sine(x[i]), s[i]);
     same(own::cosine(x[i]), c[i]);
     same(own::sine(-x[i]), -s[i]);
@@ -104,17 +109,24 @@ int main() {
   const double beyond[] = {1073741824.0000002, 1e22, 1e308};
   for (double x : beyond) {
     double s[4], c[4];
-    own::sine_cosine4(x, s[0], c[0], 1, s[1], c[1], -x, s[2], c[2], 2, s[3], c[3]);
+    own::sine_cosine4(x, s[0], c[0], 1.0, s[1], c[1], -x, s[2], c[2], 2.0, s[3], c[3]);
     same(s[0], sin(x));
     same(c[0], cos(x));
     same(s[2], -sin(x));
     same(s[1], own::sine(1.0));
     same(c[3], own::cosine(2.0));
+    own::sine_cosine3(1.0, s[0], c[0], 2.0, s[1], c[1], x, s[2], c[2]);
+    same(s[0], own::sine(1.0));
+    same(c[1], own::cosine(2.0));
+    same(s[2], sin(x));
   }
   const double none[] = {INFINITY, -INFINITY, NAN};
   for (double x : none) {
     double s, c, s1, c1;
-    own::sine_cosine2(x, s, c, 1, s1, c1);
+    own::sine_cosine2(x, s, c, 1.0, s1, c1);
+    different += s == s || c == c;
+    same(s1, own::sine(1.0));
+    own::sine_cosine3(2.0, s1, c1, x, s, c, 1.0, s1, c1);
     different += s == s || c == c;
     same(s1, own::sine(1.0));
   }
@@ -141,7 +153,7 @@ struct Printed {
 class OwnSines : public testing::Test {
  protected:
   void SetUp() override {
-    emit_model("double_pendulum", folder_.path(), {});
+    emit_model("squeezer", folder_.path(), {});
     std::string text = kAngles;
     text.replace(text.find("{HARD}"), 6, fmt::format("{{{}}}", kHard));
     support::write_file(folder_.path() + "/angles.cpp", text);

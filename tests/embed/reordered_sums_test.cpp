@@ -16,9 +16,10 @@ namespace {
 /// Compiled with the flags in question: no arithmetic but the model's own.
 constexpr const char* kSinesOfCpp = R"(
 #include "double_pendulum_kernels.hpp"
+#include "panda_kernels.hpp"
 
 extern "C" void sines(const double* x, double* s, double* c) {
-  double_pendulum::detail::sine_cosine4(x[0], s[0], c[0], x[1], s[1], c[1], x[2], s[2], c[2], x[3], s[3], c[3]);
+  panda::detail::sine_cosine4(x[0], s[0], c[0], x[1], s[1], c[1], x[2], s[2], c[2], x[3], s[3], c[3]);
 }
 extern "C" void single_sine(const double* x, double* s, double* c) {
   double_pendulum::detail::sine_cosine(*x, *s, *c);
@@ -92,6 +93,7 @@ class ReorderedSums : public testing::Test {
  protected:
   void SetUp() override {
     emit_model("double_pendulum", folder_.path(), {});
+    emit_model("panda", folder_.path(), {});
     emit_model("double_pendulum", folder_.path(), {"--language", "c"});
     support::write_file(at("sines.cpp"), kSinesOfCpp);
     support::write_file(at("sines.c"), kSinesOfC);

@@ -17,16 +17,27 @@ void add_pair(Statements& body, const Expression& angle, const std::string& sine
 
 std::string text(const Statements& body) { return cpp::statements_text(body, {}, 0); }
 
-TEST(SineBlocks, TakeFourThenTwoAndLeaveTheLast) {
+TEST(SineBlocks, TakeFourThenThreeOrTwoAndLeaveTheLast) {
   Statements body;
-  for (int i = 0; i < 7; ++i) add_pair(body, y(i), "s" + std::to_string(i), "c" + std::to_string(i));
-  EXPECT_EQ(text(in_sine_blocks(body).value()),
-            "Real s0, c0, s1, c1, s2, c2, s3, c3;\n"
-            "detail::sine_cosine4(y[0], s0, c0, y[1], s1, c1, y[2], s2, c2, y[3], s3, c3);\n"
-            "Real s4, c4, s5, c5;\n"
-            "detail::sine_cosine2(y[4], s4, c4, y[5], s5, c5);\n"
-            "Real s6, c6;\n"
-            "detail::sine_cosine(y[6], s6, c6);\n");
+  for (int i = 0; i < 6; ++i) add_pair(body, y(i), "s" + std::to_string(i), "c" + std::to_string(i));
+  const std::string four =
+      "Real s0, c0, s1, c1, s2, c2, s3, c3;\n"
+      "detail::sine_cosine4(y[0], s0, c0, y[1], s1, c1, y[2], s2, c2, y[3], s3, c3);\n";
+  EXPECT_EQ(text(in_sine_blocks(body).value().body),
+            four +
+                "Real s4, c4, s5, c5;\n"
+                "detail::sine_cosine2(y[4], s4, c4, y[5], s5, c5);\n");
+  add_pair(body, y(6), "s6", "c6");
+  EXPECT_EQ(text(in_sine_blocks(body).value().body),
+            four +
+                "Real s4, c4, s5, c5, s6, c6;\n"
+                "detail::sine_cosine3(y[4], s4, c4, y[5], s5, c5, y[6], s6, c6);\n");
+  body.erase(body.begin() + 10, body.end());
+  const SineBlocks five = in_sine_blocks(body).value();
+  EXPECT_EQ(text(five.body), four +
+                                 "Real s4, c4;\n"
+                                 "detail::sine_cosine(y[4], s4, c4);\n");
+  EXPECT_EQ(five.sizes, std::vector<std::size_t>{4});
 }
 
 TEST(SineBlocks, ComeAfterTheSumsOfTheirAnglesAndBeforeTheRest) {
@@ -35,7 +46,7 @@ TEST(SineBlocks, ComeAfterTheSumsOfTheirAnglesAndBeforeTheRest) {
   body.push_back(constant("t", name("s0") * name("c0")));
   body.push_back(constant("sum", y(0) + y(1)));
   add_pair(body, name("sum"), "s1", "c1");
-  EXPECT_EQ(text(in_sine_blocks(body).value()),
+  EXPECT_EQ(text(in_sine_blocks(body).value().body),
             "const Real sum = y[0] + y[1];\n"
             "Real s0, c0, s1, c1;\n"
             "detail::sine_cosine2(y[0], s0, c0, sum, s1, c1);\n"
@@ -69,7 +80,7 @@ TEST(SineBlocks, LookAtEachValueOnce) {
   }
   add_pair(body, y(0), "s0", "c0");
   add_pair(body, name("v200"), "s1", "c1");
-  EXPECT_NE(text(in_sine_blocks(body).value()).find("detail::sine_cosine2(y[0], s0, c0, v200, s1, c1);"),
+  EXPECT_NE(text(in_sine_blocks(body).value().body).find("detail::sine_cosine2(y[0], s0, c0, v200, s1, c1);"),
             std::string::npos);
 }
 

@@ -22,8 +22,15 @@ TEST(OwnSinesText, IsReadTokenByTokenInCpp) {
   expect_every_change_seen(ir::Language::kCpp, "double_pendulum_kernels.hpp",
                            "#if defined(JOURDAIN_LIBRARY_SINES)",
                            "JOURDAIN_FUNCTION inline double square_root");
-  expect_every_change_seen(ir::Language::kCpp, "double_pendulum_kernels.hpp",
-                           "#if !defined(JOURDAIN_LIBRARY_SINES)", "}  // namespace detail");
+}
+
+/// Of two, three and four angles.
+TEST(OwnSinesText, HasItsBlocksReadTokenByToken) {
+  const CompiledText text = compiled_text("squeezer", {"initial_state", "outputs", "forward_dynamics"}, {});
+  for (const char* block : {"void sine_cosine2(", "void sine_cosine3(", "void sine_cosine4("})
+    EXPECT_NE(text.compiled.files[1].text.find(std::string("inline ") + block), std::string::npos) << block;
+  tests::expect_every_change_seen(text, "squeezer_kernels.hpp", "#if !defined(JOURDAIN_LIBRARY_SINES)",
+                                  "}  // namespace detail");
 }
 
 TEST(OwnSinesText, IsReadTokenByTokenInC) {
