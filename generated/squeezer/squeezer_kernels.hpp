@@ -232,10 +232,10 @@ void sine_cosine4(const Real& x0, Real& s0, Real& c0, const Real& x1, Real& s1, 
 #if !defined(JOURDAIN_LIBRARY_SINES)
 #if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && (defined(__SSE2__) || defined(__aarch64__))
 // Seldom: where an angle of several is out of range, or no number.
-template <class Lanes> __attribute__((noinline, cold))
+template <class Real, class Lanes> __attribute__((noinline, cold))
 void sine_cosine_by_lane(const Lanes& x, Lanes& s, Lanes& c) noexcept {
-  for (unsigned i = 0; i < sizeof(x) / sizeof(double); ++i) {
-    double sine, cosine;
+  for (unsigned i = 0; i < sizeof(x) / sizeof(Real); ++i) {
+    Real sine, cosine;
     sine_cosine(x[i], sine, cosine);
     s[i] = sine;
     c[i] = cosine;
@@ -257,7 +257,7 @@ inline void sine_cosine2(const double& x0, double& s0, double& c0,
   if ((above[0] | above[1]) >> 63) {
     const Lanes each = x;
     Lanes sines, cosines;
-    sine_cosine_by_lane(each, sines, cosines);
+    sine_cosine_by_lane<double>(each, sines, cosines);
     s = sines;
     c = cosines;
   } else {
@@ -285,7 +285,7 @@ inline void sine_cosine3(const double& x0, double& s0, double& c0,
   if ((above[0] | above[1] | above[2]) >> 63) {
     const Lanes each = x;
     Lanes sines, cosines;
-    sine_cosine_by_lane(each, sines, cosines);
+    sine_cosine_by_lane<double>(each, sines, cosines);
     s = sines;
     c = cosines;
   } else {
@@ -316,11 +316,149 @@ inline void sine_cosine4(const double& x0, double& s0, double& c0,
   if ((above[0] | above[1] | above[2] | above[3]) >> 63) {
     const Lanes each = x;
     Lanes sines, cosines;
-    sine_cosine_by_lane(each, sines, cosines);
+    sine_cosine_by_lane<double>(each, sines, cosines);
     s = sines;
     c = cosines;
   } else {
     sine_cosine_in_range<Lanes, Bits>(x, s, c);
+  }
+  s0 = s[0];
+  c0 = c[0];
+  s1 = s[1];
+  c1 = c[1];
+  s2 = s[2];
+  c2 = c[2];
+  s3 = s[3];
+  c3 = c[3];
+}
+#endif
+#endif
+#if !defined(JOURDAIN_LIBRARY_SINES)
+#if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && defined(__SSE2__)
+// Of floats below 2^31 the bits that each has by itself: there the same words of 2/pi serve all.
+template <class V, class I, class S, class W> __attribute__((always_inline))
+inline void float_sine_cosine_in_range(const V& x, V& s, V& c) noexcept {
+#if defined(__clang__)
+#pragma clang fp reassociate(off)
+#endif
+  const unsigned nothing = 0, one = 1, word = 32;
+  const unsigned long long wide = 1, zero = 0, low = 4294967295, word1 = 3194018707, word2 = 2433043071;
+  const unsigned long long word3 = 165016701, first = 174992710547, second = (word1 << 32) | word2;
+  const unsigned long long third = (word2 << 32) | word3;
+  const I bits = __builtin_bit_cast(I, x), sign = bits & (one << 31), a = bits ^ sign;
+  const I keep = ((a - 1061752796) >> 31) - one;
+  const I above = (a >> 23) - 126, begin = above & ((above >> 31) - one);
+  const W m = __builtin_convertvector((a & 8388607) | 8388608, W);
+  const W left = __builtin_convertvector(word - begin, W), kept = __builtin_convertvector(keep, W);
+  const W w0 = (first >> left) & low, w1 = (second >> left) & low, w2 = (third >> left) & low;
+  const W turns = ((m * w0) << 32) + m * w1 + ((m * w2) >> 32);
+  const W quarter = ((turns + (wide << 61)) >> 62) & kept;
+  const W rest = turns - (quarter << 62), minus = rest >> 63;
+  const W f = (rest ^ (zero - minus)) + minus, f1 = f >> 32, f0 = f & low;
+  const W r = f1 * 3373259426 + ((f1 * 560513588) >> 32) + ((f0 * 3373259426) >> 32);
+  const V r1 = __builtin_convertvector(__builtin_convertvector(r >> 38, S), V) * 1.1920929e-07f;
+  const V r2 = __builtin_convertvector(__builtin_convertvector((r >> 14) & 16777215, S), V) * 7.1054274e-15f;
+  const V r3 = __builtin_convertvector(__builtin_convertvector(r & 16383, S), V) * 4.3368087e-19f;
+  const V sum = r1 + r2;
+  const V h = __builtin_bit_cast(V, (__builtin_bit_cast(I, sum) & keep) | (a & ~keep));
+  const V l = __builtin_bit_cast(V, __builtin_bit_cast(I, (r2 - (sum - r1)) + r3) & keep);
+  const V z = h * h, half = z * 0.5f, w = 1.0f - half;
+  const V odd = -0.16666655f + z * (0.008332189f + z * -0.00019518277f);
+  const V even = 0.041666646f + z * (-0.0013887313f + z * 2.4432964e-05f);
+  const I n = __builtin_convertvector(quarter, I), negative = __builtin_convertvector(minus, I);
+  const I flip = (negative << 31) & keep;
+  const I sine_bits = __builtin_bit_cast(I, h + (h * z * odd + l * w)) ^ flip;
+  const I cosine_bits = __builtin_bit_cast(I, w + (((1.0f - w) - half) + (z * z * even - h * l)));
+  const I exchange = (sine_bits ^ cosine_bits) & (nothing - (n & one));
+  s = __builtin_bit_cast(V, sine_bits ^ exchange ^ sign ^ ((n << 30) & (one << 31)));
+  c = __builtin_bit_cast(V, cosine_bits ^ exchange ^ (((n + one) << 30) & (one << 31)));
+}
+#endif
+#endif
+#if !defined(JOURDAIN_LIBRARY_SINES)
+#if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && defined(__AVX2__)
+JOURDAIN_FUNCTION __attribute__((always_inline))
+inline void sine_cosine2(const float& x0, float& s0, float& c0,
+                         const float& x1, float& s1, float& c1) noexcept {
+  typedef float Lanes __attribute__((vector_size(16)));
+  typedef unsigned Bits __attribute__((vector_size(16)));
+  typedef int Integers __attribute__((vector_size(16)));
+  typedef unsigned long long Words __attribute__((vector_size(32)));
+  const unsigned one = 1, largest = 1325400063;
+  const Lanes x = {x0, x1, x1, x1};
+  const Bits above = largest - (__builtin_bit_cast(Bits, x) & ~(one << 31));
+  Lanes s, c;
+  if ((above[0] | above[1]) >> 31) {
+    const Lanes each = x;
+    Lanes sines, cosines;
+    sine_cosine_by_lane<float>(each, sines, cosines);
+    s = sines;
+    c = cosines;
+  } else {
+    float_sine_cosine_in_range<Lanes, Bits, Integers, Words>(x, s, c);
+  }
+  s0 = s[0];
+  c0 = c[0];
+  s1 = s[1];
+  c1 = c[1];
+}
+#endif
+#endif
+#if !defined(JOURDAIN_LIBRARY_SINES)
+#if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && defined(__SSE2__)
+JOURDAIN_FUNCTION __attribute__((always_inline))
+inline void sine_cosine3(const float& x0, float& s0, float& c0,
+                         const float& x1, float& s1, float& c1,
+                         const float& x2, float& s2, float& c2) noexcept {
+  typedef float Lanes __attribute__((vector_size(16)));
+  typedef unsigned Bits __attribute__((vector_size(16)));
+  typedef int Integers __attribute__((vector_size(16)));
+  typedef unsigned long long Words __attribute__((vector_size(32)));
+  const unsigned one = 1, largest = 1325400063;
+  const Lanes x = {x0, x1, x2, x2};
+  const Bits above = largest - (__builtin_bit_cast(Bits, x) & ~(one << 31));
+  Lanes s, c;
+  if ((above[0] | above[1] | above[2]) >> 31) {
+    const Lanes each = x;
+    Lanes sines, cosines;
+    sine_cosine_by_lane<float>(each, sines, cosines);
+    s = sines;
+    c = cosines;
+  } else {
+    float_sine_cosine_in_range<Lanes, Bits, Integers, Words>(x, s, c);
+  }
+  s0 = s[0];
+  c0 = c[0];
+  s1 = s[1];
+  c1 = c[1];
+  s2 = s[2];
+  c2 = c[2];
+}
+#endif
+#endif
+#if !defined(JOURDAIN_LIBRARY_SINES)
+#if defined(__GNUC__) && !defined(__CUDA__) && !defined(__CUDACC__) && defined(__SSE2__)
+JOURDAIN_FUNCTION __attribute__((always_inline))
+inline void sine_cosine4(const float& x0, float& s0, float& c0,
+                         const float& x1, float& s1, float& c1,
+                         const float& x2, float& s2, float& c2,
+                         const float& x3, float& s3, float& c3) noexcept {
+  typedef float Lanes __attribute__((vector_size(16)));
+  typedef unsigned Bits __attribute__((vector_size(16)));
+  typedef int Integers __attribute__((vector_size(16)));
+  typedef unsigned long long Words __attribute__((vector_size(32)));
+  const unsigned one = 1, largest = 1325400063;
+  const Lanes x = {x0, x1, x2, x3};
+  const Bits above = largest - (__builtin_bit_cast(Bits, x) & ~(one << 31));
+  Lanes s, c;
+  if ((above[0] | above[1] | above[2] | above[3]) >> 31) {
+    const Lanes each = x;
+    Lanes sines, cosines;
+    sine_cosine_by_lane<float>(each, sines, cosines);
+    s = sines;
+    c = cosines;
+  } else {
+    float_sine_cosine_in_range<Lanes, Bits, Integers, Words>(x, s, c);
   }
   s0 = s[0];
   c0 = c[0];

@@ -4,6 +4,7 @@
 
 #include "readback/function_texts.hpp"
 #include "readback/lanes_text.hpp"
+#include "readback/own_sine_blocks.hpp"
 #include "readback/own_sines.hpp"
 
 namespace jourdain::readback {

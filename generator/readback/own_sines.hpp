@@ -1,17 +1,11 @@
 // Sines, cosines and arctangents that models have of their own, as they are written.
 #pragma once
 
-#include <string>
-#include <vector>
-
 namespace jourdain::readback {
 
 /// A second copy of the text, apart from the templates; what it computes is compared with 113 bits in tests/embed.
 const char* own_sines();
 const char* own_arctangent();
-
-/// Sines of several angles at once, each inlined or not, and what they share.
-std::vector<std::string> own_sine_blocks();
 
 /// What they stand for.
 const char* library_sines();

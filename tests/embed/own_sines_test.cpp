@@ -22,10 +22,10 @@ support::ProcessResult compile(const std::string& compiler, const std::string& f
 }
 
 /// Every angle goes through blocks of four, of three and of two and alone, with both signs. Prints how many results
-/// differ between these, a digest of all bits and, with QUAD, the largest error in units of the last place. HARD are
-/// those nearest to a multiple of pi/2 in each binade from 1 to 2^30: of the sums of multiples of the last two
-/// denominators below 2^53 in the continued fraction of 2^(e+1)/pi, the one in the binade whose fraction is nearest to
-/// a whole.
+/// differ between these, of floats too, a digest of all bits of doubles and, with QUAD, the largest error in units of
+/// the last place. HARD are those nearest to a multiple of pi/2 in each binade from 1 to 2^30: of the sums of multiples
+/// of the last two denominators below 2^53 in the continued fraction of 2^(e+1)/pi, the one in the binade whose fraction
+/// is nearest to a whole.
 constexpr const char* kAngles = R"(
 #include <math.h>
 #include <stdint.h>
@@ -87,6 +87,28 @@ static void four(double x0, double x1, double x2, double x3) {
 #endif
   }
 }
+static float as_float(uint32_t bits) {
+  float x;
+  memcpy(&x, &bits, sizeof x);
+  return x;
+}
+static void same(float x, float s, float c) {
+  float sine, cosine;
+  own::sine_cosine(x, sine, cosine);
+  if (x - x == 0)
+    different += memcmp(&sine, &s, sizeof s) != 0 || memcmp(&cosine, &c, sizeof c) != 0;
+  else
+    different += s == s || c == c;
+}
+static void floats(const float (&x)[4]) {
+  float s[4], c[4];
+  own::sine_cosine4(x[0], s[0], c[0], x[1], s[1], c[1], x[2], s[2], c[2], x[3], s[3], c[3]);
+  for (int i = 0; i < 4; ++i) same(x[i], s[i], c[i]);
+  own::sine_cosine3(x[3], s[0], c[0], x[2], s[1], c[1], x[1], s[2], c[2]);
+  for (int i = 0; i < 3; ++i) same(x[3 - i], s[i], c[i]);
+  own::sine_cosine2(x[1], s[0], c[0], x[2], s[1], c[1]);
+  for (int i = 0; i < 2; ++i) same(x[1 + i], s[i], c[i]);
+}
 static const struct { long long m; int e; } hard[] = {HARD};
 
 int main() {
@@ -129,6 +151,12 @@ int main() {
     own::sine_cosine3(2.0, s1, c1, x, s, c, 1.0, s1, c1);
     different += s == s || c == c;
     same(s1, own::sine(1.0));
+  }
+  for (uint32_t bits = 0; bits < 0x80000000u - 40000; bits += 10007) {  // infinities and what is no number, too
+    const float x[4] = {as_float(bits), -as_float(bits + 1), as_float(bits + 20000), -as_float(bits + 30000)};
+    floats(x);
+    const float apart[4] = {as_float(bits), 1, -as_float(0x80000000u - 40000 - bits), 0.5f};
+    floats(apart);
   }
   printf("%d %016llx %.3f\n", different, (unsigned long long)digest, worst);
 }

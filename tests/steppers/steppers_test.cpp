@@ -2,9 +2,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <functional>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "cart_pole_all/cart_pole_all_kernels.hpp"
@@ -148,6 +150,33 @@ TEST(Steppers, SampledInputsThatDoNotChangeGiveTheBitsOfHeldOnes) {
   };
   JOURDAIN_VISIT_STEPPERS(quadrotor_all, double, visit);
 }
+
+/// Whoever gives inputs may look at the state that is stepped: it is that of the step's start, whatever the stage.
+TEST(Steppers, LeaveTheStateUntilAllInputsAreAskedFor){
+#define JOURDAIN_LOOK_AT_THE_STATE(ns)                                                      \
+  {                                                                                         \
+    const auto visit = [](const std::string& name, int, auto step, auto& history) {         \
+      auto state = ::ns::initial_state(::ns::Model<>());                                    \
+      for (auto& z : state.z) z += 0.5;                                                     \
+      for (int i = 0; i < 3; ++i) {                                                         \
+        const auto start = state;                                                           \
+        int asked = 0;                                                                      \
+        const auto look = [&](const ::ns::State<>&) {                                       \
+          ++asked;                                                                          \
+          EXPECT_TRUE(std::equal(std::begin(start.y), std::end(start.y), state.y)) << name; \
+          EXPECT_TRUE(std::equal(std::begin(start.z), std::end(start.z), state.z)) << name; \
+          ::ns::Input<> input{};                                                            \
+          input.u[0] = 1;                                                                   \
+          return input;                                                                     \
+        };                                                                                  \
+        step(state, look, 1e-3, history);                                                   \
+        EXPECT_GE(asked, 1) << name;                                                        \
+        EXPECT_FALSE(std::equal(std::begin(start.y), std::end(start.y), state.y)) << name;  \
+      }                                                                                     \
+    };                                                                                      \
+    JOURDAIN_VISIT_STEPPERS(ns, double, visit);                                             \
+  }
+    JOURDAIN_LOOK_AT_THE_STATE(cart_pole_all) JOURDAIN_LOOK_AT_THE_STATE(quadrotor_all)}
 
 TEST(Steppers, CopiesOfStateAndHistoryGoOnWithTheSameBits) {
   const crane_all::Model<> model;

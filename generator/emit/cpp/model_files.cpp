@@ -171,11 +171,17 @@ class Emitter {
   std::string sine_blocks() const {
     constexpr std::size_t kInlined = 4;
     if (block_sizes_.empty()) return "";
+    const std::map<std::string, std::string> holes = {
+        {"INLINED", most_blocks_ <= kInlined ? "always_inline" : "noinline"}};
     std::string text;
-    for (const char* shell : {"sine_blocks.in", "own_sine_blocks.in"})
+    const auto add = [&](const char* shell, bool has_blocks) {
       for (const auto& [name, passage] : passages(shell))
-        if (name == "opening" || block_sizes_.count(std::size_t(name[0] - '0')))
-          text += fill(passage, {{"INLINED", most_blocks_ <= kInlined ? "always_inline" : "noinline"}});
+        if (name == "opening" || (has_blocks && block_sizes_.count(std::size_t(name[0] - '0'))))
+          text += fill(passage, holes);
+    };
+    add("sine_blocks.in", true);
+    add("own_sine_blocks.in", model_.choices.has_double);
+    if (model_.choices.has_float) add("own_float_sine_blocks.in", true);
     return text;
   }
 
