@@ -24,8 +24,8 @@ support::ProcessResult compile(const std::string& compiler, const std::string& f
 /// Every angle goes through blocks of four, of three and of two and alone, with both signs. Prints how many results
 /// differ between these, of floats too, a digest of all bits of doubles and, with QUAD, the largest error in units of
 /// the last place. HARD are those nearest to a multiple of pi/2 in each binade from 1 to 2^30: of the sums of multiples
-/// of the last two denominators below 2^53 in the continued fraction of 2^(e+1)/pi, the one in the binade whose fraction
-/// is nearest to a whole.
+/// of the last two denominators below 2^53 in the continued fraction of 2^(e+1)/pi, the one in the binade whose
+/// fraction is nearest to a whole.
 constexpr const char* kAngles = R"(
 #include <math.h>
 #include <stdint.h>
