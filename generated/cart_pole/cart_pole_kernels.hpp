@@ -284,7 +284,7 @@ void rk4_step(const Model<Real>& model, State<Real>& state, const InputAt& input
   for (int i = 0; i < ny; ++i) stage2.y[i] = state.y[i] + half * state.z[i];
   detail::accelerations(model, state, input, a1);
   for (int i = 0; i < nz; ++i) stage2.z[i] = state.z[i] + half * a1[i];
-  stage3.t = state.t + half;
+  stage3.t = stage2.t;
   for (int i = 0; i < ny; ++i) stage3.y[i] = state.y[i] + half * stage2.z[i];
   detail::accelerations(model, stage2, input, a2);
   for (int i = 0; i < nz; ++i) stage3.z[i] = state.z[i] + half * a2[i];

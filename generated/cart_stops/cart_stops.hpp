@@ -193,7 +193,7 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 122 operations. For inputs sampled at the stages include cart_stops_kernels.hpp and pass a function of the
+/// 115 operations. For inputs sampled at the stages include cart_stops_kernels.hpp and pass a function of the
 /// state instead of `input`.
 template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;

@@ -234,7 +234,7 @@ void sample(const Model<Real>& model, State<Real>& state, const Input<Real>& inp
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 147 operations. For inputs sampled at the stages include digital_servo_kernels.hpp and pass a function of
+/// 140 operations. For inputs sampled at the stages include digital_servo_kernels.hpp and pass a function of
 /// the state instead of `input`.
 template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;

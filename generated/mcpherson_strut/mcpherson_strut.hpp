@@ -280,7 +280,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 5565 operations. For inputs sampled at the stages include mcpherson_strut_kernels.hpp and pass a function
+/// 5558 operations. For inputs sampled at the stages include mcpherson_strut_kernels.hpp and pass a function
 /// of the state instead of `input`.
 template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;

@@ -224,7 +224,7 @@ void rk4_step(const Model<Real>& model, State<Real>& state, const InputAt& input
   for (int i = 0; i < ny; ++i) stage.y[i] = state.y[i] + half * v1[i];
   detail::accelerations(model, state, input, a1);
   for (int i = 0; i < nz; ++i) stage.z[i] = state.z[i] + half * a1[i];
-  next.t = state.t + half;
+  next.t = stage.t;
   position_rate(model, stage, v2);
   for (int i = 0; i < ny; ++i) next.y[i] = state.y[i] + half * v2[i];
   detail::accelerations(model, stage, input, a2);

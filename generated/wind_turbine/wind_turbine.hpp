@@ -213,7 +213,7 @@ void outputs(const Model<Real>& model, const State<Real>& state, const Input<Rea
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 338 operations. For inputs sampled at the stages include wind_turbine_kernels.hpp and pass a function of
+/// 331 operations. For inputs sampled at the stages include wind_turbine_kernels.hpp and pass a function of
 /// the state instead of `input`.
 template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;

@@ -66,8 +66,10 @@ Drawing drawing_of(const RunModel& model, const CompiledModel& compiled, const s
     }
   }
   if (const char* correction = programs::correction(facts); *correction)
-    text.state += fmt::format("  for (int i = 0; i < {}; ++i) ::{}::{}(model, start.state);\n",
-                              facts.closings, model.loaded.options.name, correction);
+    text.state += fmt::format(
+        "  for (int i = 0; i < 20 && (i < {} || !model.loops_closed(start.state)); ++i)\n"
+        "    ::{}::{}(model, start.state);  // from as far as no step leads\n",
+        facts.closings, model.loaded.options.name, correction);
   return text;
 }
 

@@ -50,14 +50,14 @@ class Step {
 
   /// Arrays v1, …, a1, …; a single one is without number. Of v where it is computed, or `kept`.
   void rate_arrays(int stages, bool kept = false) {
-    const auto declare = [&](const char* letter, const char* count) {
+    const auto add_arrays = [&](const char* letter, const char* count) {
       Declare declare{kRealType, Declare::Change::kFree, {}};
       for (int k = 1; k <= stages; ++k)
         declare.variables.push_back({numbered(letter, stages == 1 ? 0 : k), {name(count)}});
       add({declare});
     };
-    if (has_rate_ || kept) declare("v", "ny");
-    declare("a", "nz");
+    if (has_rate_ || kept) add_arrays("v", "ny");
+    add_arrays("a", "nz");
   }
 
   /// At stage k, or v and a at the state.
@@ -102,6 +102,10 @@ class Step {
 
   void time(const Expression& target, const Expression& change) {
     if (clock_) add(set(target.dot("t"), state.dot("t") + change));
+  }
+
+  void same_time(int k, int as) {
+    if (clock_) add(set(at(k).dot("t"), at(as).dot("t")));
   }
 
   /// state += factor × combination.
@@ -171,7 +175,7 @@ void rk4(Step& step) {
   step.rate_arrays(4);
   step.time(step.at(2), half);
   step.stage(1, half, [](const Rates& k) { return k(1); });
-  step.time(step.at(3), half);
+  step.same_time(3, 2);
   step.stage(2, half, [](const Rates& k) { return k(2); });
   step.time(step.at(4), h);
   step.stage(3, h, [](const Rates& k) { return k(3); });

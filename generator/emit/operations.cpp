@@ -49,7 +49,8 @@ class Counter {
   }
   long operator()(const Set& set) {
     const Expression& target = set.targets.front();
-    const bool moves_clock = target.kind == Kind::kMember && target.name == "t";
+    const bool moves_clock =
+        target.kind == Kind::kMember && target.name == "t" && set.value.kind != Kind::kMember;
     return operations(set.value) + (moves_clock ? kClockOperations - 1 : 0);
   }
   long operator()(const SineCosine&) { return 0; }

@@ -123,7 +123,8 @@ typedef struct jourdain_interface {
   /* At the description's start, with default parameters, inputs zero; null where the memory is null, too small or not
    * aligned. */
   void* (*create)(void* memory, size_t size);
-  /* The description's start again; parameters and inputs stay. */
+  /* The description's start again; parameters and inputs stay. Loops are closed anew where parameters have other values
+   * than at first and close_loops or project is among the functions; else they may be open there. */
   jourdain_status (*reset)(void* instance);
   /* All values of a role, in order. Parameters that are set leave the state as it is; where they change how loops
    * close, `reset`. */

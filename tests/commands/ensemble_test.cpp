@@ -212,5 +212,13 @@ TEST(EnsembleOfLoops, ClosesThem) {
   expect(result, 0, "coupler, rad");
 }
 
+/// Projections need more than one from where draws open loops.
+TEST(EnsembleOfLoops, ClosesThemWithMultipliers) {
+  const support::ProcessResult result =
+      jourdain({"ensemble", "models/n_four_bar.toml", "--states", "5", "--duration", "0.1", "--step", "0.01",
+                "--spread", "upright0=normal(0.01)"});
+  expect(result, 0, "upright0, rad");
+}
+
 }  // namespace
 }  // namespace jourdain::tests

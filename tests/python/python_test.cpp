@@ -106,32 +106,54 @@ TEST(Python, ModulesDoWhatTheyPromise) {
   EXPECT_THAT(result.output, testing::ContainsRegex("Ran 2[0-9] tests"));
 }
 
-/// A bar of the four-bar becomes a parameter; the crank stays where it is.
-TEST(Python, LoopsCloseAtTheStartAtOtherParameters) {
-  const support::TemporaryFolder folder;
-  std::string model = support::read_file(kSource + "/models/four_bar.toml");
-  const auto replace = [&](const std::string& from, const std::string& to) {
-    const std::size_t at = model.find(from);
-    ASSERT_NE(at, std::string::npos) << from;
-    model.replace(at, from.size(), to);
-  };
-  replace("[parameters]\n", "[parameters]\nbar = { value = 0.24, range = [0.23, 0.26] }\n");
-  replace("position = [0.24, 0, 0]", "position = [\"bar\", 0, 0]");
-  support::write_file(folder.path() + "/four_bar.toml", model);
-  const ProcessResult made = make(folder.path() + "/four_bar.toml", folder.path());
-  ASSERT_EQ(made.status, 0) << made.output;
-  const ProcessResult result = run_python({"-c", R"py(
+/// A bar of the four-bar becomes a parameter; in closed form the crank stays where it is. Nor does a state that was
+/// changed by more than any step changes it stay open.
+TEST(Python, LoopsCloseAtOtherParametersAndStates) {
+  for (const char* treatment : {"explicit", "multipliers"}) {
+    const support::TemporaryFolder folder;
+    std::string model = support::read_file(kSource + "/models/four_bar.toml");
+    const auto replace = [&](const std::string& from, const std::string& to) {
+      const std::size_t at = model.find(from);
+      ASSERT_NE(at, std::string::npos) << from;
+      model.replace(at, from.size(), to);
+    };
+    replace("[parameters]\n", "[parameters]\nbar = { value = 0.24, range = [0.23, 0.26] }\n");
+    replace("position = [0.24, 0, 0]", "position = [\"bar\", 0, 0]");
+    if (std::string(treatment) == "multipliers")
+      replace("treatment = \"explicit\"\nindependent = [\"crank\"]", "treatment = \"multipliers\"");
+    support::write_file(folder.path() + "/four_bar.toml", model);
+    const ProcessResult made = make(folder.path() + "/four_bar.toml", folder.path());
+    ASSERT_EQ(made.status, 0) << made.output;
+    const ProcessResult result = run_python({"-c", R"py(
 import numpy as np
 import four_bar
-for bar in (0.24, 0.25):
+explicit = hasattr(four_bar.Model, "close_loops")
+for bar in (0.24, 0.25, 0.258):
     model = four_bar.Model(bar=bar)
+    close = model.close_loops if explicit else model.project
     state = model.initial_state(2)
-    assert np.abs(model.constraint_residual(state).g).max() < 1e-14
-    assert state.y[0, 0] == four_bar.Model().initial_state().y[0]
+    assert np.abs(model.constraint_residual(state).g).max() < 1e-10
+    assert not explicit or state.y[0, 0] == four_bar.Model().initial_state().y[0]
     model.rk4_step(state, None, 1e-3)
+    for change in (0.05, 0.5):
+        state = model.initial_state()
+        state.y[0] += change
+        crank = state.y[0]
+        close(state)
+        assert np.abs(model.constraint_residual(state).g).max() < 1e-10
+        assert not explicit or state.y[0] == crank
+        model.rk4_step(state, None, 1e-3)
+    state.y[:] = np.array([0, 1, 2])
+    state.y[0] = np.nan
+    try:
+        close(state)
+        assert False
+    except four_bar.NotFinite:
+        pass
 )py"},
-                                          folder.path());
-  EXPECT_EQ(result.status, 0) << result.output;
+                                            folder.path());
+    EXPECT_EQ(result.status, 0) << treatment << result.output;
+  }
 }
 
 TEST(Python, BatchesInVectorsAreThoseOfScalarCode) {

@@ -73,6 +73,13 @@ std::vector<InterfaceCalls::PassedArray> InterfaceCalls::results(const FunctionI
 }
 
 std::string InterfaceCalls::call(const FunctionInfo& function) const {
+  if (function.shape == Shape::kCorrection)
+    return fmt::format(
+        "static jourdain_status call_{0}(void *instance, const double *const *given, double *const *results) "
+        "{{\n"
+        "  (void)given;\n  (void)results;\n"
+        "  return instance ? close_all(({1}_instance *)instance) : JOURDAIN_WRONG_CALL;\n}}\n\n",
+        function.name, names_.file());
   const std::vector<PassedArray> list = results(function);
   const bool loops =
       std::any_of(list.begin(), list.end(), [](const PassedArray& a) { return a.is_matrix(); });
@@ -107,7 +114,6 @@ std::string InterfaceCalls::call(const FunctionInfo& function) const {
   for (std::size_t k = 0; k < list.size(); ++k)
     finite += fmt::format("{}numbers_are_finite(results[{}], {})", finite.empty() ? "" : " && ", k,
                           list[k].numbers());
-  if (function.shape == Shape::kCorrection) finite = "state_is_finite(self)";
   std::string text = fmt::format(
       "static jourdain_status call_{0}(void *instance, const double *const *given, double *const *results) "
       "{{\n"

@@ -174,14 +174,9 @@ class Emitter {
     const std::map<std::string, std::string> holes = {
         {"INLINED", most_blocks_ <= kInlined ? "always_inline" : "noinline"}};
     std::string text;
-    const auto add = [&](const char* shell, bool has_blocks) {
+    for (const char* shell : {"sine_blocks.in", "own_sine_blocks.in", "own_float_sine_blocks.in"})
       for (const auto& [name, passage] : passages(shell))
-        if (name == "opening" || (has_blocks && block_sizes_.count(std::size_t(name[0] - '0'))))
-          text += fill(passage, holes);
-    };
-    add("sine_blocks.in", true);
-    add("own_sine_blocks.in", model_.choices.has_double);
-    if (model_.choices.has_float) add("own_float_sine_blocks.in", true);
+        if (name == "opening" || block_sizes_.count(std::size_t(name[0] - '0'))) text += fill(passage, holes);
     return text;
   }
 
