@@ -191,11 +191,12 @@ Json touches_json(const jourdain_model_table& table, const Study& study) {
   for (std::size_t i = 0; i < study.touches->runs.size(); ++i) {
     const TouchFacts& element = study.options.touches[i];
     const TouchRun& run = study.touches->runs[i];
-    Json json = {{"name", element.name},        {"unit", element.unit},
-                 {"deepest", run.deepest},      {"at_s", run.at},
-                 {"share", run.share},          {"stiffness", element.stiffness},
-                 {"exponent", element.exponent}};
-    if (study.options.penetration && run.deepest > *study.options.penetration) {
+    Json json = {{"name", element.name},           {"unit", element.unit},
+                 {"deepest", run.deepest},         {"at_s", run.at},
+                 {"deep_at_start", run.start},     {"share", run.share},
+                 {"stiffness", element.stiffness}, {"exponent", element.exponent}};
+    if (study.options.penetration && run.deepest > *study.options.penetration &&
+        run.start <= *study.options.penetration) {
       const Stiffening needed = stiffening(element, run.deepest, *study.options.penetration);
       json["stiffness_within_depth"] = needed.stiffness;
       json["steps_within_depth"] = needed.step_share;

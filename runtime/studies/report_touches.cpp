@@ -23,8 +23,13 @@ std::vector<std::vector<std::string>> touches_rows(const Study& study) {
     if (!study.options.penetration) continue;
     const Stiffening needed = stiffening(element, run.deepest, *study.options.penetration);
     const bool is_deeper = run.deepest > *study.options.penetration;
-    rows.back().push_back(is_deeper ? fmt::format("{:.4g}", needed.stiffness) : "as it is");
-    rows.back().push_back(is_deeper ? fmt::format("times {:.3g}", needed.step_share) : "as they are");
+    const bool starts_deeper = run.start > *study.options.penetration;
+    rows.back().push_back(starts_deeper ? "none: it starts deeper"
+                          : is_deeper   ? fmt::format("{:.4g}", needed.stiffness)
+                                        : "as it is");
+    rows.back().push_back(starts_deeper ? "-"
+                          : is_deeper   ? fmt::format("times {:.3g}", needed.step_share)
+                                        : "as they are");
   }
   return rows;
 }

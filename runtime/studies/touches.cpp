@@ -39,6 +39,7 @@ std::optional<Touches> study_touches(const Flow<double>& flow, const std::vector
     for (std::size_t i = 0; i < elements.size(); ++i) {
       TouchRun& run = touches.runs[i];
       const double depth = values[values.size() - elements.size() + i];
+      if (n == 0) run.start = std::max(depth, 0.0);
       if (depth > 0) run.share += 1 / static_cast<double>(steps + 1);
       if (depth > run.deepest) {
         run.deepest = depth;

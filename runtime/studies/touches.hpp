@@ -19,6 +19,7 @@ struct TouchFacts {
 
 struct TouchRun {
   double deepest = 0;  ///< 0: never touched
+  double start = 0;    ///< depth of the start
   double at = 0;       ///< s: when
   double share = 0;    ///< of the steps that end touching
 };

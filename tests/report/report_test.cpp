@@ -409,6 +409,7 @@ joint = "slide"
 upper = 0.1
 stiffness = "k"
 )");
+  std::string printed;
   const auto buffer = [&](const std::string& stiffness) {
     const std::string out = folder.path() + "/out" + stiffness;
     const auto result = jourdain({"report",        path,    "--set",      "k=" + stiffness,
@@ -418,6 +419,7 @@ stiffness = "k"
                                   "--effort",      "0.5",   "-o",         out});
     EXPECT_EQ(result.status, 0) << result.output;
     EXPECT_NE(result.output.find("one-sided elements"), std::string::npos);
+    printed = result.output;
     return json::parse(support::read_file(out + "/report.json"))["one_sided_elements"]["elements"][0];
   };
   const json soft = buffer("800");
@@ -431,6 +433,15 @@ stiffness = "k"
   const json hard = buffer("31250");
   EXPECT_NEAR(hard["deepest"].get<double>(), 0.008, 1e-5);
   EXPECT_FALSE(hard.contains("stiffness_within_depth"));
+  // Deeper than asked for when it starts: no stiffness keeps it within.
+  std::string pressed = support::read_file(path);
+  pressed.replace(pressed.find("initial_velocity = 1"), 20, "initial_position = 0.112");
+  support::write_file(path, pressed);
+  const json deep = buffer("801");
+  EXPECT_NEAR(deep["deep_at_start"].get<double>(), 0.012, 1e-9);
+  EXPECT_FALSE(deep.contains("stiffness_within_depth"));
+  EXPECT_EQ(soft["deep_at_start"], 0.0);
+  EXPECT_NE(printed.find("none: it starts deeper"), std::string::npos) << printed;
   const auto none = jourdain({"report", JOURDAIN_SOURCE_DIR "/models/pendulum.toml", "--penetration", "0.01",
                               "-o", folder.path() + "/none"});
   EXPECT_EQ(none.status, 2);
