@@ -134,10 +134,12 @@ class Suite {
         line.starts_with("  Real y[") || line.starts_with("  double y[") || line.starts_with("  float y[");
     const bool is_uncoupled = whole.find("first_coupled[] = {0, 0};") != std::string::npos ||
                               whole.find("first_coupled[2] = {0, 0};") != std::string::npos;
-    // The governor's mass matrix is diagonal.
-    if (mutant.operation == "insert_minus" && whole.compare(mutant.at, 15, "step.W[k][i] + ") == 0 &&
-        whole.find("namespace flyball_governor") != std::string::npos)
-      return true;
+    // Mass matrices of the governor and the crane are diagonal.
+    const bool is_mass = line.find("= step.W[k][i] + ") != std::string::npos ||
+                         line.find("= step->W[i][k] + ") != std::string::npos;
+    const bool is_diagonal =
+        whole.find("flyball_governor") != std::string::npos || whole.find("crane") != std::string::npos;
+    if (is_mass && is_diagonal && mutant.operation == "insert_minus") return true;
     // The first of the two: a loop from there is as empty.
     if (is_uncoupled && whole.compare(mutant.at, 6, "0, 0};") == 0) return true;
     return line == "    stage.y[i] = Real(0.0);" || line == "    stage.y[i] = 0.0;" ||
