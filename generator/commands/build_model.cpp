@@ -102,15 +102,17 @@ std::string shim(const std::string& name, const NumberText& number, const Compil
     parameters +=
         fmt::format("  parameters.{} = joined<Real>(values + {} * parts);\n", scene.parameters[i].name, i);
   std::string rates, inverse, outputs;
+  const bool with_position_rate = has(compiled, FunctionId::kPositionRate);
+  if (!scene.velocities.empty() || with_position_rate) rates = "  const State state = to_state(t, y, z);\n";
   if (!scene.velocities.empty()) {
-    rates = "  const State state = to_state(t, y, z);\n  Real zd[Model::velocity_count];\n";
+    rates += "  Real zd[Model::velocity_count];\n";
     rates += fmt::format("  ::{}::forward_dynamics(model(), state, to_input(u), zd);\n", name);
     rates += "  write(zd, zdot, Model::velocity_count);\n";
     if (!scene.has_rate()) rates += "  write(state.z, ydot, Model::velocity_count);\n";
   }
-  if (has(compiled, FunctionId::kPositionRate)) {
-    rates += fmt::format(
-        "  Real yd[Model::position_count];\n  ::{}::position_rate(model(), to_state(t, y, z), yd);\n", name);
+  if (with_position_rate) {
+    rates +=
+        fmt::format("  Real yd[Model::position_count];\n  ::{}::position_rate(model(), state, yd);\n", name);
     rates += "  write(yd, ydot, Model::position_count);\n";
   }
   const bool is_long = number.parts > 1;

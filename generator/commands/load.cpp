@@ -229,8 +229,7 @@ int refuse(const LoadedMechanism& loaded, const validate::Verdict& verdict) {
         "{}:{}:{}: error: refused to emit: {}\n"
         "  What decides abs, min, max, floor or `if` is within rounding of zero at all states that were "
         "drawn, {} time{}: a depth, a gap or a sine that is zero but for the last digits. Rounding chooses "
-        "the side "
-        "there, which may be why; give it a size, or leave it out.\n",
+        "the side there, which may be why; give it a size, or leave it out.\n",
         loaded.options.path, where.line, where.column, failure, verdict.kinks.stuck,
         verdict.kinks.stuck == 1 ? "" : "s");
     return kModelWrong;

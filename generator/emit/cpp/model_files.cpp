@@ -314,8 +314,8 @@ class Emitter {
   ModelCode code_;
   std::vector<support::CalledFunction> called_;
   std::vector<StepRecord> steps_;
-  std::size_t most_blocks_ = 0;        ///< sines of several angles in one function
-  std::set<std::size_t> block_sizes_;  ///< angles are taken side by side
+  std::size_t most_blocks_ = 0;        ///< of sines of several angles, in one function
+  std::set<std::size_t> block_sizes_;  ///< how many angles blocks take at once
 };
 
 }  // namespace
