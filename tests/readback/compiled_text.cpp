@@ -22,11 +22,16 @@ std::vector<std::string> CompiledText::differences(const std::vector<emit::File>
 CompiledText compiled_text(const std::string& model, const std::vector<std::string>& functions,
                            const ir::TextChoices& choices) {
   const std::string path = std::string(JOURDAIN_SOURCE_DIR) + "/models/" + model + ".toml";
-  support::Diagnostics diagnostics(path, support::read_file(path));
+  return compiled_scene(model, support::read_file(path), functions, choices);
+}
+
+CompiledText compiled_scene(const std::string& name, const std::string& scene,
+                            const std::vector<std::string>& functions, const ir::TextChoices& choices) {
+  support::Diagnostics diagnostics(name + ".toml", scene);
   const auto mechanism = model::read_mechanism(diagnostics);
   JD_CHECK(mechanism.has_value(), "{}", diagnostics.format());
   CompileOptions options;
-  options.path = model + ".toml";
+  options.path = name + ".toml";
   options.choices = choices;
   if (!functions.empty()) {
     options.functions = functions;

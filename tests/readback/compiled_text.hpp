@@ -21,6 +21,11 @@ struct CompiledText {
 CompiledText compiled_text(const std::string& model, const std::vector<std::string>& functions = {},
                            const ir::TextChoices& choices = {});
 
+/// The same of a scene's text.
+CompiledText compiled_scene(const std::string& name, const std::string& scene,
+                            const std::vector<std::string>& functions = {},
+                            const ir::TextChoices& choices = {});
+
 /// All functions, all steps.
 std::vector<std::string> every_function();
 
