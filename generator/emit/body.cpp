@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "emit/bundles.hpp"
 #include "emit/called_functions.hpp"
@@ -68,18 +69,15 @@ class BodyBuilder {
     name_gathered(names);
   }
 
-  Body build(std::size_t maximum_statements) {
+  Body build(const Lengths& lengths) {
     std::vector<std::size_t> statements;
     for (std::size_t i = 0; i < program_.nodes.size(); ++i)
       if (!name_[i].empty() && bundles_.first(i) == i) statements.push_back(i);
     Body body;
-    const std::vector<std::size_t> part_of = cut(statements, maximum_statements);
+    const std::vector<std::size_t> part_of = cut(statements, lengths);
     const std::size_t parts = statements.empty() ? 1 : part_of[statements.back()] + 1;
-    const auto slots = work_slots(statements, part_of, parts);
-    for (const auto& [i, slot] : slots) {
-      is_angle_[i] = false;
-      body.work_size += bundles_.width(i);
-    }
+    const auto slots = work_slots(statements, part_of, parts, body.work_size);
+    for (const auto& [i, slot] : slots) is_angle_[i] = false;
     body.parts.resize(parts);
     for (std::size_t part = 0; part < parts; ++part)
       body.parts[part] = part_statements(part, statements, part_of, slots);
@@ -158,9 +156,10 @@ class BodyBuilder {
   }
 
   /// For each value that is live after statement k: where it is last read. Cuts lie where few values are live.
-  std::vector<std::size_t> cut(const std::vector<std::size_t>& statements, std::size_t maximum) const {
+  std::vector<std::size_t> cut(const std::vector<std::size_t>& statements, const Lengths& lengths) const {
     std::vector<std::size_t> part_of(program_.nodes.size(), 0);
-    if (statements.size() <= maximum) return part_of;
+    if (statements.size() <= lengths.whole) return part_of;
+    const std::size_t maximum = lengths.part;
     std::map<std::size_t, std::size_t> position, last;
     for (std::size_t k = 0; k < statements.size(); ++k) {
       position[statements[k]] = k;
@@ -193,58 +192,87 @@ class BodyBuilder {
     return part_of;
   }
 
+  std::set<std::size_t> read_by_outputs() const {
+    std::set<std::size_t> read;
+    for (const ir::Output& output : program_.outputs)
+      if (name_[output.value.value].empty())
+        operands(output.value.value, read);
+      else
+        read.insert(bundles_.first(output.value.value));
+    return read;
+  }
+
   std::set<std::size_t> needed_in(std::size_t part, const std::vector<std::size_t>& statements,
                                   const std::vector<std::size_t>& part_of, std::size_t parts) const {
     std::set<std::size_t> needed;
     for (std::size_t i : statements)
       if (part_of[i] == part) operands(i, needed);
-    if (part + 1 == parts)
-      for (const ir::Output& output : program_.outputs) {
-        if (name_[output.value.value].empty())
-          operands(output.value.value, needed);
-        else
-          needed.insert(bundles_.first(output.value.value));
-      }
+    if (part + 1 == parts) needed.merge(read_by_outputs());
     std::set<std::size_t> from_earlier;
     for (std::size_t i : needed)
       if (part_of[i] < part) from_earlier.insert(i);
     return from_earlier;
   }
 
-  /// Entry of `w`, the first of several for lanes, for each value that a later part reads.
+  /// Entry of `w`, the first of several for lanes, for each value that a later part reads. Entries are used again once
+  /// the last part that reads them has ended.
   std::map<std::size_t, std::size_t> work_slots(const std::vector<std::size_t>& statements,
-                                                const std::vector<std::size_t>& part_of,
-                                                std::size_t parts) const {
-    std::map<std::size_t, std::size_t> slots;
-    std::size_t size = 0;
+                                                const std::vector<std::size_t>& part_of, std::size_t parts,
+                                                std::size_t& size) const {
+    std::map<std::size_t, std::size_t> last, slots;
     for (std::size_t part = 1; part < parts; ++part)
-      for (std::size_t i : needed_in(part, statements, part_of, parts))
-        if (slots.try_emplace(i, size).second) size += bundles_.width(i);
+      for (std::size_t i : needed_in(part, statements, part_of, parts)) last[i] = part;
+    std::vector<std::vector<std::size_t>> made(parts), ended(parts);
+    for (const auto& [i, part] : last) {
+      made[part_of[i]].push_back(i);
+      ended[part].push_back(i);
+    }
+    std::map<std::size_t, std::set<std::size_t>> unused;  // by width
+    for (std::size_t part = 0; part < parts; ++part) {
+      for (std::size_t i : made[part]) {
+        const std::size_t width = bundles_.width(i);
+        std::set<std::size_t>& fitting = unused[width];
+        slots[i] =
+            fitting.empty() ? std::exchange(size, size + width) : fitting.extract(fitting.begin()).value();
+      }
+      for (std::size_t i : ended[part]) unused[bundles_.width(i)].insert(slots.at(i));
+    }
     return slots;
   }
 
   Statements part_statements(std::size_t index, const std::vector<std::size_t>& statements,
                              const std::vector<std::size_t>& part_of,
                              const std::map<std::size_t, std::size_t>& slots) const {
-    const std::size_t parts = statements.empty() ? 1 : part_of[statements.back()] + 1;
-    const Expression w = name("w");
     Statements part;
-    if (index > 0)
-      for (std::size_t i : needed_in(index, statements, part_of, parts))
-        part.push_back(bundles_.width(i) == 1
-                           ? constant(name_[i], w[slots.at(i)])
-                           : constant_lanes(name_[i], bundles_.width(i),
-                                            lanes(entries(w, slots.at(i), bundles_.width(i)))));
+    std::set<std::size_t> fetched;
     std::set<std::string> brought;
+    const auto fetch = [&](const std::set<std::size_t>& needed) {
+      for (const std::size_t i : needed)
+        if (part_of[i] < index && fetched.insert(i).second) part.push_back(fetched_statement(i, slots.at(i)));
+    };
     for (std::size_t i : statements) {
       if (part_of[i] != index) continue;
+      fetch(reads(i));
       bring_together(part, i, brought);
       add_statement(part, i);
+      if (const auto slot = slots.find(i); slot != slots.end()) pass_on(part, i, slot->second);
     }
-    for (const auto& [i, slot] : slots)
-      for (std::size_t l = 0; part_of[i] == index && l < bundles_.width(i); ++l)
-        part.push_back(set(w[slot + l], by_name(bundles_.together(i)[l])));
+    if (statements.empty() || index == part_of[statements.back()]) fetch(read_by_outputs());
     return part;
+  }
+
+  /// A value of an earlier part, where it is first read.
+  Statement fetched_statement(std::size_t i, std::size_t slot) const {
+    const Expression w = name("w");
+    const std::size_t width = bundles_.width(i);
+    return width == 1 ? constant(name_[i], w[slot])
+                      : constant_lanes(name_[i], width, lanes(entries(w, slot, width)));
+  }
+
+  /// To later parts, as soon as it is known: what waits for the end of a part keeps a register or is stored twice.
+  void pass_on(Statements& part, std::size_t i, std::size_t slot) const {
+    for (std::size_t l = 0; l < bundles_.width(i); ++l)
+      part.push_back(set(name("w")[slot + l], by_name(bundles_.together(i)[l])));
   }
 
   static std::vector<Expression> entries(const Expression& array, std::size_t first, std::size_t count) {
@@ -385,8 +413,8 @@ bool turns_with_time(const Program& program) {
 }
 
 Body body_of(const Program& program, Names names, const LeafPlace& leaf, const ResultStatement& result,
-             const StoredValues& stored, std::size_t maximum_statements) {
-  return BodyBuilder(program, std::move(names), leaf, result, stored).build(maximum_statements);
+             const StoredValues& stored, const Lengths& lengths) {
+  return BodyBuilder(program, std::move(names), leaf, result, stored).build(lengths);
 }
 
 }  // namespace jourdain::emit

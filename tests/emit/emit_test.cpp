@@ -178,7 +178,7 @@ TEST(Body, IsCutIntoPartsOfTheWantedLength) {
       return set(name("zdot")[o.row], value);
     };
     const Body whole = body_of(program, Names({}), leaf, output),
-               parts = body_of(program, Names({}), leaf, output, {}, 100);
+               parts = body_of(program, Names({}), leaf, output, {}, {100, 100});
     EXPECT_EQ(whole.parts.size(), 1u);
     EXPECT_EQ(whole.work_size, 0u);
     EXPECT_GT(parts.parts.size(), 4u);

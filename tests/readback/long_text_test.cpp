@@ -1,8 +1,9 @@
-// The mass matrix of many coordinates: what the text leaves to a loop is read back as if it were written out.
+// Text of large mechanisms: matrices that a loop mirrors and functions in parts are read back as if written out.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,24 @@ TEST(MassMatrix, OfManyCoordinatesIsMirroredByALoop) {
     ASSERT_NE(at, std::string::npos) << right;
     files[1].text.replace(at, right.size(), wrong);
     EXPECT_THAT(text.differences(files), Not(::testing::IsEmpty())) << wrong;
+  }
+}
+
+TEST(Parts, PassValuesThroughAnArrayWhoseEntriesAreUsedAgain) {
+  const CompiledText text = compiled_scene("chain", chain(20), {"forward_dynamics_derivatives"});
+  const std::string& kernels = text.compiled.files[1].text;
+  std::smatch size;
+  ASSERT_TRUE(std::regex_search(kernels, size, std::regex(R"(Real w\[(\d+)\];)")));
+  const std::regex store(R"(\n  w\[(\d+)\] = )");
+  const std::vector<std::smatch> stores{std::sregex_iterator(kernels.begin(), kernels.end(), store), {}};
+  EXPECT_GT(stores.size(), std::stoul(size[1]));
+  EXPECT_THAT(text.differences(text.compiled.files), ::testing::IsEmpty());
+  for (std::size_t k = 0; k < stores.size(); k += stores.size() / 5) {
+    std::vector<emit::File> files = text.compiled.files;
+    const unsigned long entry = std::stoul(stores[k][1]), other = (entry + 1) % std::stoul(size[1]);
+    files[1].text.replace(std::size_t(stores[k].position(1)), std::size_t(stores[k].length(1)),
+                          std::to_string(other));
+    EXPECT_THAT(text.differences(files), Not(::testing::IsEmpty())) << entry;
   }
 }
 
