@@ -6,7 +6,6 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <utility>
 
 #include "emit/bundles.hpp"
 #include "emit/called_functions.hpp"
@@ -73,14 +72,14 @@ class BodyBuilder {
     std::vector<std::size_t> statements;
     for (std::size_t i = 0; i < program_.nodes.size(); ++i)
       if (!name_[i].empty() && bundles_.first(i) == i) statements.push_back(i);
+    std::vector<Declaration> declarations;
+    for (const std::size_t i : statements) declarations.push_back({i, bundles_.width(i), reads(i)});
+    const Parts parts = cut_into_parts(declarations, pair_, read_by_outputs(), lengths);
+    for (const auto& [i, entry] : parts.entries) is_angle_[i] = false;
     Body body;
-    const std::vector<std::size_t> part_of = cut(statements, lengths);
-    const std::size_t parts = statements.empty() ? 1 : part_of[statements.back()] + 1;
-    const auto slots = work_slots(statements, part_of, parts, body.work_size);
-    for (const auto& [i, slot] : slots) is_angle_[i] = false;
-    body.parts.resize(parts);
-    for (std::size_t part = 0; part < parts; ++part)
-      body.parts[part] = part_statements(part, statements, part_of, slots);
+    body.work_size = parts.size;
+    for (std::size_t part = 0; part < parts.count; ++part)
+      body.parts.push_back(part_statements(part, declarations, parts));
     for (const ir::Output& output : program_.outputs)
       if (!stored_.count(output.value)) body.parts.back().push_back(result_(output, real(output.value)));
     return body;
@@ -155,43 +154,6 @@ class BodyBuilder {
     return found;
   }
 
-  /// For each value that is live after statement k: where it is last read. Cuts lie where few values are live.
-  std::vector<std::size_t> cut(const std::vector<std::size_t>& statements, const Lengths& lengths) const {
-    std::vector<std::size_t> part_of(program_.nodes.size(), 0);
-    if (statements.size() <= lengths.whole) return part_of;
-    const std::size_t maximum = lengths.part;
-    std::map<std::size_t, std::size_t> position, last;
-    for (std::size_t k = 0; k < statements.size(); ++k) {
-      position[statements[k]] = k;
-      for (std::size_t operand : reads(statements[k])) last[operand] = k;
-    }
-    for (const ir::Output& output : program_.outputs)
-      last[bundles_.first(output.value.value)] = statements.size();
-    std::vector<long> change(statements.size() + 2, 0);
-    for (const auto& [value, end] : last) {
-      if (!position.count(value)) continue;
-      ++change[position[value]];
-      --change[end];
-    }
-    std::vector<long> live(statements.size(), 0);
-    long count = 0;
-    for (std::size_t k = 0; k < statements.size(); ++k) live[k] = count += change[k];
-    std::size_t part = 0, begin = 0;
-    while (begin < statements.size()) {
-      std::size_t end = statements.size();
-      if (end - begin > maximum)
-        end = static_cast<std::size_t>(std::min_element(live.begin() + static_cast<long>(begin + maximum / 2),
-                                                        live.begin() + static_cast<long>(begin + maximum)) -
-                                       live.begin()) +
-              1;
-      for (std::size_t k = begin; k < end; ++k) part_of[statements[k]] = part;
-      ++part;
-      begin = end;
-    }
-    for (const auto& [first, second] : pair_) part_of[second] = part_of[first];
-    return part_of;
-  }
-
   std::set<std::size_t> read_by_outputs() const {
     std::set<std::size_t> read;
     for (const ir::Output& output : program_.outputs)
@@ -202,62 +164,26 @@ class BodyBuilder {
     return read;
   }
 
-  std::set<std::size_t> needed_in(std::size_t part, const std::vector<std::size_t>& statements,
-                                  const std::vector<std::size_t>& part_of, std::size_t parts) const {
-    std::set<std::size_t> needed;
-    for (std::size_t i : statements)
-      if (part_of[i] == part) operands(i, needed);
-    if (part + 1 == parts) needed.merge(read_by_outputs());
-    std::set<std::size_t> from_earlier;
-    for (std::size_t i : needed)
-      if (part_of[i] < part) from_earlier.insert(i);
-    return from_earlier;
-  }
-
-  /// Entry of `w`, the first of several for lanes, for each value that a later part reads. Entries are used again once
-  /// the last part that reads them has ended.
-  std::map<std::size_t, std::size_t> work_slots(const std::vector<std::size_t>& statements,
-                                                const std::vector<std::size_t>& part_of, std::size_t parts,
-                                                std::size_t& size) const {
-    std::map<std::size_t, std::size_t> last, slots;
-    for (std::size_t part = 1; part < parts; ++part)
-      for (std::size_t i : needed_in(part, statements, part_of, parts)) last[i] = part;
-    std::vector<std::vector<std::size_t>> made(parts), ended(parts);
-    for (const auto& [i, part] : last) {
-      made[part_of[i]].push_back(i);
-      ended[part].push_back(i);
-    }
-    std::map<std::size_t, std::set<std::size_t>> unused;  // by width
-    for (std::size_t part = 0; part < parts; ++part) {
-      for (std::size_t i : made[part]) {
-        const std::size_t width = bundles_.width(i);
-        std::set<std::size_t>& fitting = unused[width];
-        slots[i] =
-            fitting.empty() ? std::exchange(size, size + width) : fitting.extract(fitting.begin()).value();
-      }
-      for (std::size_t i : ended[part]) unused[bundles_.width(i)].insert(slots.at(i));
-    }
-    return slots;
-  }
-
-  Statements part_statements(std::size_t index, const std::vector<std::size_t>& statements,
-                             const std::vector<std::size_t>& part_of,
-                             const std::map<std::size_t, std::size_t>& slots) const {
+  Statements part_statements(std::size_t index, const std::vector<Declaration>& declarations,
+                             const Parts& parts) const {
     Statements part;
     std::set<std::size_t> fetched;
     std::set<std::string> brought;
     const auto fetch = [&](const std::set<std::size_t>& needed) {
       for (const std::size_t i : needed)
-        if (part_of[i] < index && fetched.insert(i).second) part.push_back(fetched_statement(i, slots.at(i)));
+        if (parts.part_of.at(i) < index && fetched.insert(i).second)
+          part.push_back(fetched_statement(i, parts.entries.at(i)));
     };
-    for (std::size_t i : statements) {
-      if (part_of[i] != index) continue;
-      fetch(reads(i));
+    for (const Declaration& declaration : declarations) {
+      const std::size_t i = declaration.value;
+      if (parts.part_of.at(i) != index) continue;
+      fetch(declaration.reads);
       bring_together(part, i, brought);
       add_statement(part, i);
-      if (const auto slot = slots.find(i); slot != slots.end()) pass_on(part, i, slot->second);
+      if (const auto entry = parts.entries.find(i); entry != parts.entries.end())
+        pass_on(part, i, entry->second);
     }
-    if (statements.empty() || index == part_of[statements.back()]) fetch(read_by_outputs());
+    if (index + 1 == parts.count) fetch(read_by_outputs());
     return part;
   }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "emit/parts.hpp"
 #include "emit/tree.hpp"
 #include "emit/unique_names.hpp"
 
@@ -21,14 +22,6 @@ using ResultStatement = std::function<Statement(const ir::Output&, Expression va
 struct Body {
   std::vector<Statements> parts;  ///< the last one writes the outputs
   std::size_t work_size = 0;      ///< entries of `w`; 0 where there is one part
-};
-
-/// Statements of a function. A compiler's time grows faster than the length of a function, and what passes from part to
-/// part goes through memory: TALOS' forward dynamics (1865) take 0.9 of the time, and 0.9 of the code, in one part
-/// instead of two; its derivatives (26 000) compile in 44 s in parts of 1500, in 53 s in parts of 3000.
-struct Lengths {
-  std::size_t whole = 4000;  ///< a longer one is cut
-  std::size_t part = 1500;   ///< its parts hold at most so many
 };
 
 /// Values that live in a variable declared elsewhere (members of the model): they are assigned, not declared.
