@@ -37,8 +37,12 @@ Signals::Signals(const LoadedMechanism& loaded, const std::vector<programs::Outp
   state_ = positions_ + entries.velocities.size();
   for (const programs::Entry& entry : entries.positions)
     list_.push_back({entry.name, entry.unit, "position"});
-  for (const programs::Entry& entry : entries.velocities)
-    list_.push_back({entry.name + "_velocity", entry.unit, "velocity"});
+  const std::size_t moving = entries.velocities.size() - loaded.mechanism.states.size();
+  for (std::size_t i = 0; i < entries.velocities.size(); ++i) {
+    const programs::Entry& entry = entries.velocities[i];
+    list_.push_back(i < moving ? Signal{entry.name + "_velocity", entry.unit, "velocity"}
+                               : Signal{entry.name, entry.unit, "state"});
+  }
   for (const char* energy : {"kinetic_energy", "potential_energy", "total_energy"})
     list_.push_back({energy, "J", "energy"});
   for (const programs::Entry& entry : entries.inputs)

@@ -13,11 +13,11 @@ namespace jourdain::commands {
 struct Signal {
   std::string name;         ///< of the column
   std::string unit;         ///< empty: not known
-  std::string kind;         ///< "position", "velocity", "energy", "input", "output"
+  std::string kind;         ///< "position", "velocity", "state", "energy", "input", "output"
   std::string output = {};  ///< whose number it is; empty: none's
 };
 
-/// Positions, velocities, energies, inputs and outputs of a model, in this order. Names differ: what is called
+/// Positions, velocities, states, energies, inputs and outputs of a model, in this order. Names differ: what is called
 /// like an earlier one, the time or an energy gets its kind appended, and a number where that is a name, too.
 class Signals {
  public:

@@ -32,7 +32,8 @@ std::vector<Meaning> meanings_of(const RunModel& model, const Signals& signals,
   std::size_t positions = 0, velocities = 0, input = 0;
   for (const Signal& signal : signals.list()) {
     if (signal.kind == "position") meanings.push_back({signal.name, Spread::Of::kPosition, positions++, 0});
-    if (signal.kind == "velocity") meanings.push_back({signal.name, Spread::Of::kVelocity, velocities++, 0});
+    if (signal.kind == "velocity" || signal.kind == "state")
+      meanings.push_back({signal.name, Spread::Of::kVelocity, velocities++, 0});
     if (signal.kind == "input") {
       meanings.push_back({signal.name, Spread::Of::kInput, input, inputs[input]});
       ++input;

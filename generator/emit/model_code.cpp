@@ -64,7 +64,7 @@ Expression entry(Expression array, const ir::Output& output) {
   return output.column >= 0 ? array[output.column] : array;
 }
 
-/// Velocities; g++ -O2 takes 0.5 (60 of a chain) to 0.8 (38 of TALOS) of the time for the whole file.
+/// Velocities of bodies; g++ -O2 takes 0.5 (60 of a chain) to 0.8 (38 of TALOS) of the time for the whole file.
 constexpr std::size_t kMostWrittenTwice = 24;
 
 class CodeBuilder {
@@ -163,7 +163,7 @@ class CodeBuilder {
   }
 
   /// A loop copies the upper triangle into the lower one: compilers take much longer for thousands of stores.
-  bool is_mirrored() const { return scene_.velocities.size() > kMostWrittenTwice; }
+  bool is_mirrored() const { return scene_.moving() > kMostWrittenTwice; }
 
   Statement mirror(const Expression& M) const {
     const Expression i = name("i"), j = name("j");

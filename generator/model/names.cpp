@@ -82,7 +82,9 @@ bool is_identifier(std::string_view name) {
 }
 
 bool is_reserved(std::string_view name) {
-  return contains(kKeywords, name) || contains(kEmitted, name) || is_macro(name);
+  const bool is_of_c = name.size() > 1 && name[0] == '_' && name[1] >= 'A' && name[1] <= 'Z';  // _Bool
+  return contains(kKeywords, name) || contains(kEmitted, name) || is_macro(name) || is_of_c ||
+         (name.starts_with("JOURDAIN_") && !name.ends_with("_model"));
 }
 
 bool is_taken_by_files(std::string_view name) {

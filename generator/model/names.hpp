@@ -10,7 +10,8 @@ namespace jourdain::model {
 bool is_identifier(std::string_view name);
 
 /// A C++17/20/23 keyword, alternative token, or a name that the standard library's C headers define as a macro or
-/// that emitted code uses itself at that place (`Real`, `Model`, `State`, `Input`, `Parameters`, `detail`, …).
+/// that emitted code uses itself at that place (`Real`, `Model`, `State`, `Input`, `Parameters`, `detail`, …); what
+/// begins with '_' and a capital, as keywords of C, or with "JOURDAIN_", as macros of emitted files.
 bool is_reserved(std::string_view name);
 
 /// No model may have that name: with it an emitted file would declare a name of its own twice, or take the place of

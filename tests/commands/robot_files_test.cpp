@@ -111,6 +111,37 @@ TEST_F(RobotFiles, ParametersThatAreSetAreCheckedLikeThoseOfTheFile) {
   expect(set("m=2"), 0, "");
 }
 
+/// All six rows of a weld are one connection: those that hold nothing are left out, also where rounded poses disagree
+/// by 1e-17 and where the sixth row stands by itself. A hinge, a slide or a ball may be locked by one.
+TEST_F(RobotFiles, WeldsMayHaveRowsThatHoldNothing) {
+  const std::string inertial = R"(<inertial pos="-0.06 0.17 -0.11" mass="1" diaginertia=".2 .25 .3"/>)";
+  const auto locked = [&](const std::string& place, const std::string& joint) {
+    return R"(<mujoco><worldbody><body name="b0" euler="-46.989 -80.10 54.877"><joint name="j0" axis="-0.76 -0.06 -0.28"/>)" +
+           inertial + "<body name=\"b1\" " + place + "><joint name=\"j1\" " + joint + "/>" + inertial +
+           R"(</body></body></worldbody><equality><weld body1="b0" body2="b1"/></equality></mujoco>)";
+  };
+  for (const char* place :
+       {"", R"(pos="0.11 0.23 -0.07" euler="31 17 5")", R"(euler="-75.787 11.644 -25.206")"})
+    for (const char* joint :
+         {R"(axis="0 1 0")", R"(axis="0.3 0.2 0.7" pos="0.02 0.17 0.05")",
+          R"(type="slide" axis="0.3 0.2 0.7")", R"(type="ball")", R"(type="ball" pos="0.02 0.17 0.05")"})
+      expect(jourdain("w.xml", locked(place, joint), {"check", "--name", "w"}), 0, "1 degree of freedom");
+  std::string chain, ends;
+  for (const char* body : {"a", "b", "c", "e"}) {
+    chain += fmt::format("<body name=\"{0}\" pos=\"{1} 0\"><joint name=\"j{0}\" axis=\"0 0 1\"/>{2}", body,
+                         chain.empty()              ? "0 0"
+                         : body == std::string("c") ? "0.1 0.4"
+                                                    : "0.3 0.1",
+                         inertial);
+    ends += "</body>";
+  }
+  expect(jourdain("w.xml",
+                  "<mujoco><worldbody>" + chain + ends +
+                      "</worldbody><equality><weld body1=\"e\"/></equality></mujoco>",
+                  {"check", "--name", "w"}),
+         0, "1 degree of freedom");
+}
+
 TEST_F(RobotFiles, NumbersThatDoubleHasNoRoomForAreTheDescriptions) {
   expect(jourdain("m.toml", with_parameter("1", "-1e-155"), {"check"}), 1, "m.toml:1:1: error: ");
 }

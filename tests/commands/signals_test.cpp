@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <set>
 #include <sstream>
@@ -51,6 +52,14 @@ class Signals : public testing::Test {
   const std::string four_bar_ = JOURDAIN_SOURCE_DIR + std::string("/models/four_bar.toml");
   const support::TemporaryFolder folder_;
 };
+
+TEST_F(Signals, StatesHaveTheirOwnNames) {
+  const std::string servo_arm = JOURDAIN_SOURCE_DIR + std::string("/models/servo_arm.toml");
+  expect(simulate(servo_arm, {"--method", "rodas4", "--plot", "current", "p.svg"}), 0, "wrote a.csv, p.svg");
+  const std::vector<std::string> names = columns();
+  EXPECT_EQ(std::count(names.begin(), names.end(), "current"), 1);
+  EXPECT_EQ(std::count(names.begin(), names.end(), "current_velocity"), 0);
+}
 
 TEST_F(Signals, InputsOutputsAndEnergiesAreDrawn) {
   expect(simulate(four_bar_, {"--constant-input", "0.3", "--plot", "motor_input", "coupler_curve.position",

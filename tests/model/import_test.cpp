@@ -2,11 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <numbers>
 #include <span>
 
 #include "compile/compile.hpp"
 #include "model/read/read.hpp"
+#include "model/snap.hpp"
 #include "properties/to_toml.hpp"
+#include "reference/minimal.hpp"
 #include "support/files.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -301,6 +304,102 @@ TEST(Import, LocksByTheNameInTheWhole) {
   EXPECT_EQ(mechanism.joints[0].type, JointType::kFixed);
 }
 
+const std::string kFollower = link("a", "lead", "world") + link("b", "fol", "world") +
+                              "[[coupler]]\ncoordinate = \"fol\"\nfollows = \"lead\"\nratio = 2\n";
+
+TEST(Import, LocksFollowersAndWhatTheyFollow) {
+  const auto locked = [](const std::string& list) {
+    return Files()
+        .add("part.toml", kHead + kFollower)
+        .add("model.toml", kHead + "[[import]]\nfile = \"part.toml\"\nlock = [" + list + "]\n\n" +
+                               link("c", "other", "world"))
+        .read("model.toml");
+  };
+  const Files::Result follower = locked("\"fol\"");
+  EXPECT_NE(follower.messages.find("note: joint 'fol' is locked and does not follow 'lead'"),
+            std::string::npos);
+  ASSERT_TRUE(follower.mechanism);
+  EXPECT_TRUE(follower.mechanism->loops.empty());
+  EXPECT_EQ(follower.mechanism->joints[0].type, JointType::kRevolute);
+  EXPECT_EQ(follower.mechanism->joints[1].type, JointType::kFixed);
+  const Files::Result leader = locked("\"lead\"");
+  EXPECT_NE(leader.messages.find("note: joint 'fol' is locked with 'lead', which it follows"),
+            std::string::npos);
+  ASSERT_TRUE(leader.mechanism);
+  EXPECT_TRUE(leader.mechanism->loops.empty());
+  for (const int j : {0, 1}) EXPECT_EQ(leader.mechanism->joints[std::size_t(j)].type, JointType::kFixed) << j;
+  EXPECT_FALSE(locked("\"non\"").mechanism);
+}
+
+/// What expressions name stays an input when the joint that it drove is locked.
+TEST(Import, LockedJointsLeaveTheirInputsToExpressions) {
+  const std::string scene =
+      kHead + link("a", "ja", "world") + link("b", "jb", "world") +
+      "[[actuator]]\njoint = \"ja\"\nname = \"m\"\n\n[[actuator]]\njoint = \"jb\"\nname = "
+      "\"n\"\n\n[[input]]\nname = \"wind\"\n\n[[force]]\njoint = \"jb\"\nvalue = \"wind - "
+      "m*2 + n*4\"\n\n[[force]]\njoint = \"ja\"\nvalue = \"m\"\n";
+  const Mechanism m = Files().add("model.toml", scene).cleanly("model.toml", {.locked_joints = {"ja"}});
+  ASSERT_EQ(m.actuators.size(), 1u);
+  EXPECT_EQ(m.actuators[0].name, "n");
+  ASSERT_EQ(m.inputs.size(), 2u);
+  EXPECT_EQ(m.inputs[0].name, "m");
+  const reference::Reference<double> numbers(m);
+  const auto q_bar =
+      numbers
+          .evaluate(
+              {.t = 0, .y = reference::VectorX<double>::Zero(1), .z = reference::VectorX<double>::Zero(1)},
+              Eigen::Vector3d(1, 10, 100))
+          .q_bar;
+  EXPECT_EQ(q_bar[0], -(1 + 100 - 2 * 10 + 4 * 1));
+  const Mechanism unnamed =
+      Files()
+          .add("model.toml",
+               kHead + link("a", "ja", "world") + link("b", "jb", "world") +
+                   "[[actuator]]\njoint = \"ja\"\nname = \"m\"\n\n[[force]]\njoint = \"ja\"\nvalue = \"m\"\n")
+          .cleanly("model.toml", {.locked_joints = {"ja"}});
+  EXPECT_TRUE(unnamed.inputs.empty());
+}
+
+/// A cable pulls both ends, also the one on the world of its file, which is on a body here. No force is left over.
+TEST(Import, PutsCablesOnWhatTheirWorldHangsOn) {
+  const auto slide = [](const std::string& body, const std::string& joint) {
+    return "[[body]]\nname = \"" + body + "\"\nmass = 1\n\n[[joint]]\nname = \"" + joint +
+           "\"\ntype = \"prismatic\"\nparent = \"world\"\nchild = \"" + body + "\"\naxis = [1, 0, 0]\n\n";
+  };
+  const std::string part = kHead + slide("b", "j") +
+                           "[[cable]]\nthrough = [\"world\", \"b\"]\nstiffness = 100\nfree_length = 0.5\n";
+  const Mechanism m = Files()
+                          .add("part.toml", part)
+                          .add("model.toml", kHead + slide("base", "rail") +
+                                                 "[[import]]\nfile = \"part.toml\"\nparent = \"base\"\n")
+                          .cleanly("model.toml");
+  EXPECT_EQ(m.loads.size(), 2u);
+  const reference::Reference<double> numbers(m);
+  const auto q_bar =
+      numbers.evaluate({.t = 0, .y = Eigen::Vector2d(0.3, 1), .z = Eigen::Vector2d(0, 0)}, {}).q_bar;
+  EXPECT_NEAR(q_bar[0], 0, 1e-12);
+  EXPECT_NEAR(q_bar[1], 50, 1e-12);
+  EXPECT_EQ(by_hand(part).loads.size(), 1u);
+}
+
+TEST(Import, TakesAnglesAsTheWholeIsToldTo) {
+  Files files;
+  files
+      .add("part.sdf",
+           "<sdf version=\"1.9\"><model name=\"m\"><link name=\"a\"><pose>0 0 0 1.57081 0 0</pose><inertial>"
+           "<mass>1</mass><inertia><ixx>1</ixx><iyy>1</iyy><izz>1</izz></inertia></inertial></link>"
+           "<joint name=\"j\" type=\"revolute\"><parent>world</parent><child>a</child><axis><xyz>1 0 0</xyz>"
+           "</axis></joint></model></sdf>")
+      .add("model.toml", kHead + "[[import]]\nfile = \"part.sdf\"\n");
+  const auto roll = [&](double snap) {
+    const Files::Result result = files.read("model.toml", {.snap = snap});
+    return result.mechanism ? value(*result.mechanism, result.mechanism->joints[0].placement.rotation.rpy[0])
+                            : 0;
+  };
+  EXPECT_NEAR(roll(0), 1.57081, 1e-15);
+  EXPECT_EQ(roll(kDefaultSnap), std::numbers::pi / 2);
+}
+
 /// Rz(90°): x to y. The start (1, 2, 3) becomes (-2, 1, 3) and is moved by (0, 0, 10); half of the angle is 45°.
 TEST(Import, PlacesWhereAFreeJointStarts) {
   Files files;
@@ -462,6 +561,16 @@ TEST(Repeat, OfTwentyLinksIsTheChainWrittenByHand) {
       "\"0.01*{n}\"\n\n[[repeat.spring]]\nname = \"cord{n}\"\nfrom = \"world\"\nto = \"link{n}\"\nstiffness "
       "= 3\n";
   EXPECT_EQ(tests::to_toml(by_hand(repeated)), tests::to_toml(by_hand(written)));
+}
+
+TEST(Repeat, NamesCoordinatesInTermsOfCouplers) {
+  std::string links = kHead;
+  for (const char* name : {"j1", "j2", "k2", "k3"}) links += link(std::string("on_") + name, name, "world");
+  const auto coupled = [](const std::string& a, const std::string& b) {
+    return "coupler]]\nterms = { \"" + a + "\" = 1, \"" + b + "\" = -2 }\n\n";
+  };
+  EXPECT_EQ(tests::to_toml(by_hand(links + "[[repeat]]\ncount = 2\n[[repeat." + coupled("j{i}", "k{i+1}"))),
+            tests::to_toml(by_hand(links + "[[" + coupled("j1", "k2") + "[[" + coupled("j2", "k3"))));
 }
 
 TEST(Repeat, KeepsTheOrderOfTheFile) {

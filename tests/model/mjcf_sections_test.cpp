@@ -90,6 +90,27 @@ TEST(MjcfActuators, PassOnWhatAClassSaysOfAnotherKind) {
   EXPECT_NEAR(force(R"(<motor joint="j"/>)"), 0.7, kRounding);
 }
 
+TEST(MjcfActuators, WithoutAGainHaveTheirBias) {
+  const auto read_one = [](const std::string& element) {
+    return read(hinge("", "<actuator>" + element + "</actuator>"));
+  };
+  const Read spring =
+      read_one(R"(<general name="g" joint="j" gear="2" gainprm="0" biastype="affine" biasprm="0 -50 -3"/>)");
+  EXPECT_NE(spring.messages.find("note: <general> 'g' has a gain of zero: its bias acts, it is no input"),
+            std::string::npos);
+  EXPECT_TRUE(spring.mechanism.actuators.empty());
+  EXPECT_NEAR(terms(spring.mechanism, 0.3, 0.2, 0).q_bar[0], 4 * (50 * 0.3 + 3 * 0.2), kRounding);
+  const Read damper = read_one(R"(<position joint="j" kp="0" kv="5"/>)");
+  EXPECT_NEAR(terms(damper.mechanism, 0.3, 0.2, 0).q_bar[0], 5 * 0.2, kRounding);
+  for (const char* nothing :
+       {R"(<general name="g" joint="j" gainprm="0" biastype="affine"/>)",
+        R"(<general name="g" joint="j" gear="0" biastype="affine" biasprm="0 -50 -3"/>)"}) {
+    const Read none = read_one(nothing);
+    EXPECT_NE(none.messages.find("<general> 'g' has no effect"), std::string::npos);
+    EXPECT_EQ(terms(none.mechanism, 0.3, 0.2, 0).q_bar[0], 0);
+  }
+}
+
 TEST(MjcfActuators, SayWhatIsNotRead) {
   const auto messages = [](const std::string& element) {
     return read(hinge("", "<actuator>" + element + "</actuator>")).messages;

@@ -15,9 +15,10 @@ TEST(IsIdentifier, FollowsCpp) {
 }
 
 TEST(IsReserved, CoversKeywordsMacrosAndEmittedNames) {
-  for (const char* word : {"double", "xor", "co_await", "typeof", "NAN", "M_PI", "errno", "Real", "detail"})
+  for (const char* word : {"double", "xor", "co_await", "typeof", "NAN", "M_PI", "errno", "Real", "detail",
+                           "_Bool", "_Static_assert", "JOURDAIN_FUNCTION"})
     EXPECT_TRUE(is_reserved(word)) << word;
-  for (const char* word : {"m", "l", "gamma", "real", "arm"}) EXPECT_FALSE(is_reserved(word)) << word;
+  for (const char* word : {"m", "l", "gamma", "real", "arm", "_x"}) EXPECT_FALSE(is_reserved(word)) << word;
 }
 
 TEST(CppName, LeavesToFilesAndHeadersWhatTheyAreCalled) {

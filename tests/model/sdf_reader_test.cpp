@@ -123,6 +123,26 @@ TEST(ReadSdf, PosesAreRelativeToAnyFrame) {
   expect_near(of.frame("f").placement.position, {0, 1, 0});
 }
 
+/// Frames that say nothing else are attached to the model's frame, and that to the link that the model names.
+TEST(ReadSdf, TheFrameOfAModelIsAttachedToItsCanonicalLink) {
+  const auto parent = [](const std::string& attribute, const std::string& inside = "") {
+    const Read of = read("<sdf version=\"1.9\"><model name=\"m\"" + attribute + ">" + kArms + kShoulder +
+                         joint("elbow", "revolute", "a", "b") + link("c") + "<frame name=\"f\"/>" + inside +
+                         joint("wrist", "revolute", "f", "c") + "</model></sdf>");
+    return of.diagnostics.empty() ? of.mechanism.bodies[of.joint("wrist").parent->value].name
+                                  : of.diagnostics;
+  };
+  EXPECT_EQ(parent(""), "a");
+  EXPECT_EQ(parent(" canonical_link=\"\""), "a");
+  EXPECT_EQ(parent(" canonical_link=\"b\""), "b");
+  const std::string inner =
+      "<model name=\"n\">" + link("l") + "</model>" + joint("k", "revolute", "b", "n::l");
+  EXPECT_EQ(parent(" canonical_link=\"n::l\"", inner), "n::l");
+  EXPECT_NE(parent(" canonical_link=\"d\"").find("the model has no link 'd'"), std::string::npos);
+  EXPECT_NE(parent(" canonical_link=\"n::m\"", inner).find("the model has no link 'n::m'"),
+            std::string::npos);
+}
+
 TEST(ReadSdf, AnglesMayBeDegreesOrQuaternions) {
   const Read of = read(model(link("a", "<pose degrees=\"true\">0 0 0 0 0 30</pose>") +
                              link("b", "<pose rotation_format=\"quat_xyzw\">0 0 0 0 0 0.6 0.8</pose>") +

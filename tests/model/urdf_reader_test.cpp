@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "agreement/shared_data.hpp"
@@ -120,6 +121,45 @@ TEST(ReadUrdf, ReadsPlanarJointsAndFloatingOnesOnTheRoot) {
   const Mechanism floating = read_cleanly(robot("floating"));
   EXPECT_EQ(floating.joints[0].type, JointType::kFree);
   EXPECT_FALSE(floating.joints[0].parent);
+}
+
+/// A quarter turn about z, then 0.2 rad of the child's; both are where the free joint starts.
+TEST(ReadUrdf, FloatingJointsStartAtTheirOrigin) {
+  const Mechanism m = read_cleanly(
+      "<robot name='r'><link name='world'/><link name='b'><inertial><mass value='1'/><inertia ixx='1' "
+      "iyy='1' izz='1' "
+      "ixy='0' ixz='0' iyz='0'/></inertial></link><joint name='j' type='floating'><origin xyz='1 2 3' rpy='0 "
+      "0 0.6'/>"
+      "<parent link='world'/><child link='b'/></joint></robot>");
+  EXPECT_FALSE(m.joints[0].parent);
+  for (const std::size_t k : {0u, 1u, 2u}) EXPECT_EQ(m.joints[0].initial_origin[k].constant(), double(k + 1));
+  EXPECT_NEAR(m.joints[0].initial_orientation[0].constant(), std::cos(0.3), 1e-15);
+  EXPECT_NEAR(m.joints[0].initial_orientation[3].constant(), std::sin(0.3), 1e-15);
+  EXPECT_TRUE(m.joints[0].placement.position[0].is_zero());
+}
+
+TEST(ReadUrdf, OriginsMayHaveQuaternions) {
+  const auto text = [](const std::string& attributes) {
+    return "<robot name='r'><link name='a'/><link name='b'><inertial><origin " + attributes +
+           "/><mass value='1'/><inertia ixx='1' iyy='2' izz='2.5' ixy='0' ixz='0' "
+           "iyz='0'/></inertial></link><joint name='j' "
+           "type='continuous'><origin xyz='0 0 1' " +
+           attributes + "/><parent link='a'/><child link='b'/></joint></robot>";
+  };
+  const Mechanism m = read_cleanly(text("quat_xyzw='0 0 0.6 0.8'"));
+  for (const Rotation& turned : {m.joints[0].placement.rotation, m.bodies[1].inertia_axes}) {
+    EXPECT_NEAR(turned.rpy[0].constant(), 0, 1e-15);
+    EXPECT_NEAR(turned.rpy[2].constant(), 2 * std::atan2(0.6, 0.8), 1e-15);
+  }
+  for (const auto& [attributes, message] :
+       {std::pair("quat_xyzw='0 0 0 0'", "the quaternion of <origin> is zero"),
+        std::pair("quat_xyzw='0 0 1'", "'quat_xyzw' of <origin> needs 4 numbers, found 3"),
+        std::pair("quat_xyzw='0 0 1 x'", "x"),
+        std::pair("quat_xyzw='0 0 1 0' rpy='0 0 0'", "<origin> has 'rpy' and 'quat_xyzw'")}) {
+    support::Diagnostics diagnostics("arm.urdf", text(attributes));
+    EXPECT_FALSE(read_mechanism(diagnostics)) << attributes;
+    EXPECT_NE(diagnostics.format().find(message), std::string::npos) << diagnostics.format();
+  }
 }
 
 TEST(ReadUrdf, LocksJoints) {

@@ -30,8 +30,8 @@ TEST(UrdfSchema, AttributesThatAreNotReadAreTold) {
               "warning: attribute 'dampning' of <dynamics> is ignored");
   expect_said(messages(R"(<dynamics dampning="5"/>)"), "did you mean 'damping'?");
   expect_said(messages(R"(<axis xyx="0 1 0"/>)"), "attribute 'xyx' of <axis> is ignored");
-  expect_said(messages(R"(<origin xyz="0 0 0" quat_xyzw="0.6 0 0 0.8"/>)"),
-              "note: attribute 'quat_xyzw' of <origin> is ignored");
+  expect_said(messages(R"(<origin xyz="0 0 0" quat="0.6 0 0 0.8"/>)"),
+              "note: attribute 'quat' of <origin> is ignored");
   expect_said(messages("", "", R"(<inertial><origin xzy="1 2 3"/>)" + kInertial.substr(10)),
               "attribute 'xzy' of <origin> is ignored");
   const std::string other =

@@ -270,7 +270,7 @@ void drop_rounding(std::vector<Polynomial>& rows, const Samples& samples) {
     const double scale = largest.empty() ? 0 : *std::max_element(largest.begin(), largest.end());
     std::size_t i = 0;
     for (auto it = row.begin(); it != row.end(); ++i)
-      it = largest[i] <= kRounding * scale ? row.erase(it) : std::next(it);
+      it = largest[i] <= kRounding * scale && !is_literal(it->second) ? row.erase(it) : std::next(it);
   }
 }
 

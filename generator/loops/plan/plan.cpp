@@ -105,12 +105,15 @@ class Planner {
     return true;
   }
 
-  /// Every loop must hold some coordinate back somewhere.
+  /// Every loop must hold some coordinate back somewhere, with those that continue it.
   bool check_acting() {
     std::size_t first = 0;
     bool all_act = true;
-    for (const model::Loop& loop : mechanism_.loops) {
-      const std::size_t count = model::row_count(loop.type);
+    for (std::size_t l = 0; l < mechanism_.loops.size();) {
+      const model::Loop& loop = mechanism_.loops[l];
+      std::size_t count = model::row_count(loop.type);
+      for (++l; l < mechanism_.loops.size() && mechanism_.loops[l].continues; ++l)
+        count += model::row_count(mechanism_.loops[l].type);
       const bool acts = std::any_of(jacobians_.begin(), jacobians_.end(), [&](const Matrix& G) {
         return !G.middleRows(at(first), at(count)).isZero(0);
       });

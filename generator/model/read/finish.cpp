@@ -61,6 +61,8 @@ std::optional<Mechanism> finish_reading(Part part, const ReadOptions& options, D
   mechanism.snap = options.snap > 0;
   if (complete.structure) lock_joints(mechanism, options, diagnostics);
   keep_useful_limits(mechanism);
+  // Of cables: the frame of an imported file's world may be on a body here.
+  std::erase_if(mechanism.loads, [&](const Load& load) { return !mechanism.frames[load.frame.value].body; });
   if (mechanism.snap) snap_directions(mechanism, options.snap, diagnostics);
   check_numbers(mechanism, diagnostics);
   const bool tree = complete.structure && check_graph(mechanism, diagnostics);

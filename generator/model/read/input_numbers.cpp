@@ -1,6 +1,5 @@
 #include "model/read/input_numbers.hpp"
 
-#include <optional>
 #include <vector>
 
 namespace jourdain::model {
@@ -32,14 +31,34 @@ void add_actuator(Mechanism& mechanism, const Actuator& actuator) {
 }
 
 void remove_actuators(Mechanism& mechanism, const std::function<bool(const Actuator&)>& goes) {
-  std::vector<std::optional<std::size_t>> input;  // new index of each input
-  std::size_t kept = 0;
-  for (const Actuator& actuator : mechanism.actuators)
-    input.push_back(goes(actuator) ? std::nullopt : std::optional(kept++));
-  for (std::size_t i = 0; i < mechanism.inputs.size(); ++i) input.emplace_back(kept++);
+  const std::size_t count = mechanism.actuators.size();
+  std::vector<bool> is_named(count, false);
+  for_general_expressions(mechanism, [&](Expression& expression) {
+    any_variable(expression, [&](const Variable& variable) {
+      if (variable.kind == Variable::Kind::kInput && variable.index < count) is_named[variable.index] = true;
+      return false;
+    });
+  });
+  std::vector<std::size_t> kept, named;
+  std::vector<Input> still;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Actuator& actuator = mechanism.actuators[i];
+    if (!goes(actuator)) {
+      kept.push_back(i);
+    } else if (is_named[i]) {
+      named.push_back(i);
+      still.push_back({actuator.name, "", "", actuator.where});
+    }
+  }
+  std::vector<std::size_t> number(count + mechanism.inputs.size(), 0);  // new, of each input that is named
+  for (std::size_t i = 0; i < kept.size(); ++i) number[kept[i]] = i;
+  for (std::size_t i = 0; i < named.size(); ++i) number[named[i]] = kept.size() + i;
+  for (std::size_t i = 0; i < mechanism.inputs.size(); ++i)
+    number[count + i] = kept.size() + named.size() + i;
   std::erase_if(mechanism.actuators, goes);
-  replace_inputs(mechanism, [&input](std::size_t i) {
-    return input[i] ? Expression::variable({Variable::Kind::kInput, *input[i], 0}) : Expression(0.0);
+  mechanism.inputs.insert(mechanism.inputs.begin(), still.begin(), still.end());
+  replace_inputs(mechanism, [&number](std::size_t i) {
+    return Expression::variable({Variable::Kind::kInput, number[i], 0});
   });
 }
 

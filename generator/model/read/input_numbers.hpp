@@ -17,7 +17,7 @@ void replace_inputs(Mechanism& mechanism, const std::function<Expression(std::si
 /// Expressions name the same inputs as before.
 void add_actuator(Mechanism& mechanism, const Actuator& actuator);
 
-/// Zero takes the place of the inputs that go; expressions name the same others as before.
+/// What expressions name stays, as an input that pushes nothing itself; they name the same inputs as before.
 void remove_actuators(Mechanism& mechanism, const std::function<bool(const Actuator&)>& goes);
 
 }  // namespace jourdain::model

@@ -35,7 +35,7 @@ KeySection contact_section() {
       "against the "
       "velocity v along it; on a slope of angle a less than atan(friction) it creeps, with slip_speed "
       "tan(a)/sqrt(friction^2 - tan(a)^2).",
-      {{"name", "text", "", "its number", "for messages"},
+      {{"name", "text", "", "its number", "for messages; with lugre it is required"},
        {"frame", "name", "", kRequired, "a [[frame]] or a body"},
        {"point", "3 numbers", "m", "[0, 0, 0]", "of the plane, in the inertial frame"},
        {"normal", "3 constants", "", "[0, 0, 1]", "out of the ground, in the inertial frame"},

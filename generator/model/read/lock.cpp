@@ -1,5 +1,7 @@
 #include "model/read/lock.hpp"
 
+#include <type_traits>
+
 #include "model/output_kinds.hpp"
 #include "model/read/input_numbers.hpp"
 
@@ -23,10 +25,12 @@ void lock(Mechanism& mechanism, JointIndex joint) {
   std::erase_if(mechanism.loops, [joint](const Loop& loop) { return is_about(loop, joint); });
   mechanism.joints[joint.value].set_type(JointType::kFixed);
   const auto on_joint = [joint](const auto& element) { return element.joint == joint; };
-  remove_actuators(mechanism, on_joint);
   for_each_force_list(mechanism, [&](auto& list) {
-    std::erase_if(list, [&](const auto& element) { return element.pushed() && on_joint(*element.pushed()); });
+    if constexpr (!std::is_same_v<decltype(list), std::vector<Actuator>&>)
+      std::erase_if(list,
+                    [&](const auto& element) { return element.pushed() && on_joint(*element.pushed()); });
   });
+  remove_actuators(mechanism, on_joint);
   std::erase_if(mechanism.loop_options.independent, on_joint);
   std::erase_if(mechanism.outputs, [&](const Output& output) {
     return output_kind(output.kind).subject == OutputSubject::kCoordinate && output.joint == joint;

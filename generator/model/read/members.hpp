@@ -118,10 +118,10 @@ class Members {
     each(name, frame, axes, quantities, where);
   }
   void one(Loop& loop) {
-    auto& [name, type, from, to, axis, to_axis, length, residual, radii, height, approaches, follower, where,
-           to_where] = loop;
-    each(name, type, from, to, axis, to_axis, length, residual, radii, height, approaches, follower, where,
-         to_where);
+    auto& [name, type, from, to, axis, to_axis, length, residual, radii, height, approaches, continues,
+           follower, where, to_where] = loop;
+    each(name, type, from, to, axis, to_axis, length, residual, radii, height, approaches, continues,
+         follower, where, to_where);
   }
   void one(DrawnGround& ground) {
     auto& [frame, normal, point, height] = ground;

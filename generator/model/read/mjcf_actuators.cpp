@@ -77,15 +77,23 @@ class ActuatorReader {
     actuator.joint = named->joint;
     actuator.gear_ratio = gear * law.gain[0];
     actuator.where = given ? xml().value(e, "name") : xml().element(e);
-    if (gear * law.gain[0] == 0)
+    const bool is_input = gear * law.gain[0] != 0, is_law = gear != 0 && has_bias(law);
+    if (!is_input && !is_law)
       return file_.warning(actuator.where, label + " has no effect: its gear or gain is zero");
+    if (!is_input)
+      xml().diagnostics().note(actuator.where, label + " has a gain of zero: its bias acts, it is no input");
     if (file_.holder(e, "forcerange") && file_.word(e, "forcelimited").value_or("auto") != "false")
       force_limits_.add(xml().value(*file_.holder(e, "forcerange"), "forcerange"), actuator.name);
     warn_of(e, label, "damping", "joints have 'damping' of their own");
     warn_of(e, label, "armature", "joints have 'armature' of their own");
     warn_of(e, label, "delay", "the actuator acts at once");
     add_bias(actuator, gear, law);
-    bodies_.mechanism.actuators.push_back(std::move(actuator));
+    if (is_input) bodies_.mechanism.actuators.push_back(std::move(actuator));
+  }
+
+  /// At some position or velocity.
+  static bool has_bias(const Law& law) {
+    return std::any_of(law.bias.begin(), law.bias.begin() + 3, [](double number) { return number != 0; });
   }
 
   std::string new_name(const XmlElement& e) {

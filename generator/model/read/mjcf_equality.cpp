@@ -130,6 +130,7 @@ class EqualityReader {
     // A slide that is stopped: five rows and the sixth.
     loop.name = unused(loop.name + "_stop");
     loop.type = LoopType::kPointInPlane;
+    loop.continues = true;
     bodies_.mechanism.loops.push_back(std::move(loop));
   }
 

@@ -125,8 +125,29 @@ class SdfReader {
     report_left_out(model);
   }
 
-  /// Of a model; of its first model where it has none, as the format has it.
-  static std::string canonical_link(const XmlElement& model, const std::string& scope) {
+  static const XmlElement* named(const XmlElement& model, const char* kind, std::string_view name) {
+    for (const auto* e = model.FirstChildElement(kind); e; e = e->NextSiblingElement(kind))
+      if (e->Attribute("name") && e->Attribute("name") == name) return e;
+    return nullptr;
+  }
+
+  /// "link", or "model::link" of a model inside.
+  static bool has_link(const XmlElement& model, std::string_view name) {
+    const std::size_t colons = name.find("::");
+    if (colons == std::string_view::npos) return named(model, "link", name);
+    const XmlElement* inner = named(model, "model", name.substr(0, colons));
+    return inner && has_link(*inner, name.substr(colons + 2));
+  }
+
+  /// What the frame of a model is attached to: the link that it names, else its first one; of its first model where it
+  /// has none, as the format has it.
+  std::string canonical_link(const XmlElement& model, const std::string& scope) {
+    if (const char* given = model.Attribute("canonical_link"); given && *given) {
+      if (has_link(model, given)) return scope + given;
+      file_.error(
+          file_.value(model, "canonical_link"),
+          fmt::format("the model has no link '{}' that its frame could be attached to", shown(given)));
+    }
     const XmlElement* link = model.FirstChildElement("link");
     if (link) return scope + (link->Attribute("name") ? link->Attribute("name") : "");
     const XmlElement* inner = model.FirstChildElement("model");

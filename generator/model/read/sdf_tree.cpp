@@ -195,6 +195,7 @@ class Assembly {
     if (!is_fixed) return;
     loop.name += "_along";
     loop.type = LoopType::kPointInPlane;
+    loop.continues = true;
     mechanism_.loops.push_back(loop);
   }
 

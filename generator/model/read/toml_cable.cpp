@@ -104,7 +104,6 @@ class CableReader {
   }
 
   void act(FrameIndex frame, const Vector3& pull, const Expression& tension) {
-    if (!mechanism_.frames[frame.value].body) return;
     Load load;
     load.name = name_;
     load.frame = frame;

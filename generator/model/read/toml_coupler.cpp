@@ -101,7 +101,8 @@ class CouplerReader {
     std::vector<std::string> names;
     for (const auto& [key, node] : *section) {
       names.emplace_back(key.str());
-      if (const auto found = find(file_.range(key.source()), names.back()))
+      const SourceRange where = file_.range(key.source());
+      if (const auto found = find(where, file_.text(names.back(), where)))
         terms.push_back({found->joint, found->coordinate, 1.0});
     }
     if (names.size() < 2)

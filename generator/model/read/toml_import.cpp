@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "model/names.hpp"
+#include "model/read/followers.hpp"
 #include "model/read/import_file.hpp"
 #include "model/read/import_merge.hpp"
 #include "model/read/keys.hpp"
@@ -49,11 +50,17 @@ class ImportReader {
     options.importing = &found.chain;
     support::Diagnostics diagnostics(found.path, std::move(found.text));
     std::optional<Part> part = read_part(diagnostics, options);
+    std::vector<std::string> locked;
+    for (const auto& [joint, where] : locked_) locked.push_back(joint);
+    if (part && part->complete.structure && !locked.empty())
+      settle_followers(part->mechanism, locked, diagnostics);
     const int number = file_.diagnostics().absorb(std::move(diagnostics), table_.where("file"));
     if (!part) return {};
     file_.complete().structure = file_.complete().structure && part->complete.structure;
     file_.complete().numbers = file_.complete().numbers && part->complete.numbers;
     for (const auto& [joint, where] : locked_) lock_joint(joint, where, part->mechanism);
+    for (std::size_t k = locked_.size(); k < locked.size(); ++k)
+      lock_joint(locked[k], table_.where("lock"), part->mechanism);
     import.has_loop_options = part->mechanism.loop_options.where.line > 0;
     if (!merge(std::move(*part), number, mechanism, import.range)) return {};
     return import;
@@ -97,6 +104,7 @@ class ImportReader {
     options.damping = options_.damping;
     options.friction = options_.friction;
     options.mimic = options_.mimic;
+    options.snap = options_.snap;
     options.external = options_.external;
     options.prefix = options_.prefix + prefix_;
     if (name_.ends_with(".toml")) {

@@ -24,7 +24,7 @@ void check_parameter_name(TomlFile& file, const Parameter& parameter) {
   else if (is_reserved(name))
     file.error(parameter.where,
                fmt::format("parameter name '{}' is reserved in C++ or in the emitted code", name),
-               fmt::format("'{}_value' would do", name));
+               is_reserved(name + "_value") ? "" : fmt::format("'{}_value' would do", name));
   else if (name.find("__") != std::string::npos)
     file.error(parameter.where, fmt::format("parameter name '{}' has two '_' in a row", support::shown(name)),
                "C++ reserves such names");

@@ -45,7 +45,10 @@ std::optional<std::int64_t> value_of(std::string_view inside, const Repetition& 
 void TomlFile::repeat(const std::optional<Repetition>& repetition) { repetition_ = repetition; }
 
 std::string TomlFile::text(const toml::value<std::string>& written) {
-  const std::string& text = written.get();
+  return text(written.get(), range(written.source()));
+}
+
+std::string TomlFile::text(const std::string& text, const SourceRange& where) {
   if (!repetition_ || text.find('{') == std::string::npos) return text;
   std::string meant;
   for (std::size_t i = 0; i < text.size();) {
@@ -54,14 +57,14 @@ std::string TomlFile::text(const toml::value<std::string>& written) {
     if (open == text.size()) break;
     const std::size_t close = text.find('}', open);
     if (close == std::string::npos) {
-      error(range(written.source()), "'{' has no '}' behind it", kIndexHint);
+      error(where, "'{' has no '}' behind it", kIndexHint);
       return text;
     }
     const std::string inside = text.substr(open + 1, close - open - 1);
     const std::optional<std::int64_t> value = value_of(inside, *repetition_);
     if (!value) {
       error(
-          range(written.source()),
+          where,
           fmt::format("'{{{}}}' is not the index '{}' of the [[repeat]]", shown(inside), repetition_->index),
           kIndexHint);
       return text;

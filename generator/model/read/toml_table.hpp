@@ -89,6 +89,7 @@ class TomlFile {
   void repeat(const std::optional<Repetition>& repetition);
   /// A text as it is meant: indices of [[repeat]] have their values. As written after a diagnostic.
   std::string text(const toml::value<std::string>& written);
+  std::string text(const std::string& text, const SourceRange& where);
   /// The text of `key`, or `otherwise` where that is none.
   std::string text_or(const toml::table& table, std::string_view key, std::string otherwise = "");
 

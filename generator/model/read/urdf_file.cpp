@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "model/read/mjcf_pose.hpp"
 #include "support/utf8.hpp"
 
 namespace jourdain::model {
@@ -149,10 +150,31 @@ std::array<double, 3> UrdfFile::triple(const XmlElement& where, const char* attr
   return diagnostics_.all().size() == mark ? result : otherwise;
 }
 
+/// As URDF 1.2 has it.
+Placement UrdfFile::turned_by_quaternion(const XmlElement& origin, const std::array<double, 3>& xyz) {
+  const SourceRange where = value(origin, "quat_xyzw");
+  const std::vector<Word> found = words(origin.Attribute("quat_xyzw"));
+  const std::size_t mark = diagnostics_.all().size();
+  std::string problem;
+  if (origin.Attribute("rpy")) problem = "<origin> has 'rpy' and 'quat_xyzw'";
+  if (found.size() != 4)
+    problem = fmt::format("'quat_xyzw' of <origin> needs 4 numbers, found {}", found.size());
+  std::array<double, 4> xyzw{};
+  for (std::size_t k = 0; k < 4 && problem.empty(); ++k) xyzw[k] = parsed(origin, "quat_xyzw", found[k]);
+  const auto rotation = rotation_from_quaternion({xyzw[3], xyzw[0], xyzw[1], xyzw[2]});
+  if (diagnostics_.all().size() != mark) return {};
+  if (problem.empty() && !rotation) problem = "the quaternion of <origin> is zero";
+  if (problem.empty()) return placement_of(Pose{xyz, *rotation}, where);
+  complete_.numbers = false;
+  diagnostics_.error(where, problem);
+  return {};
+}
+
 Placement UrdfFile::origin(const XmlElement& parent) {
   const XmlElement* element_found = child(parent, "origin");
   if (!element_found) return {};
   const auto xyz = triple(*element_found, "xyz", {});
+  if (element_found->Attribute("quat_xyzw")) return turned_by_quaternion(*element_found, xyz);
   const auto rpy = triple(*element_found, "rpy", {});
   return {{xyz[0], xyz[1], xyz[2]}, {{rpy[0], rpy[1], rpy[2]}, value(*element_found, "rpy")}};
 }

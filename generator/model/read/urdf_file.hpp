@@ -72,6 +72,7 @@ class UrdfFile {
 
  private:
   double parsed(const XmlElement& element, const char* attribute, const Word& word);
+  Placement turned_by_quaternion(const XmlElement& origin, const std::array<double, 3>& xyz);
 
   support::Diagnostics& diagnostics_;
   XmlPositions positions_;

@@ -7,6 +7,7 @@
 #include <memory>
 #include <unordered_map>
 
+#include "model/matrix3.hpp"
 #include "model/read/read.hpp"
 #include "model/read/urdf_file.hpp"
 #include "model/read/urdf_limits.hpp"
@@ -254,20 +255,20 @@ class UrdfReader {
     }
   }
 
-  /// A floating joint on a root link that is fixed to the world is a free joint: its parent becomes the world.
+  /// A floating joint on a root link that is fixed to the world is a free joint: its parent becomes the world, and it
+  /// starts where it is placed.
   void free_floating_children(std::size_t root) {
     for (Joint& joint : mechanism_.joints) {
       if (joint.type != JointType::kFree || joint.parent != BodyIndex(root)) continue;
-      const bool placed = std::any_of(joint.placement.position.begin(), joint.placement.position.end(),
-                                      [](const Expression& e) { return !e.is_zero(); });
-      if (options_.root != RootJoint::kFree && !placed && !is_turned(joint.placement.rotation))
-        joint.parent = {};
+      if (options_.root == RootJoint::kFree) continue;
+      joint.parent = {};
+      joint.initial_origin = joint.placement.position;
+      const Vector3& rpy = joint.placement.rotation.rpy;
+      const std::array<double, 4> q =
+          quaternion_of(rotation_from_rpy({rpy[0].constant(), rpy[1].constant(), rpy[2].constant()}));
+      for (std::size_t k = 0; k < 4; ++k) joint.initial_orientation[k] = q[k];
+      joint.placement = {};
     }
-  }
-
-  static bool is_turned(const Rotation& rotation) {
-    return std::any_of(rotation.rpy.begin(), rotation.rpy.end(),
-                       [](const Expression& e) { return !e.is_zero(); });
   }
 
   UrdfFile& file_;

@@ -27,7 +27,7 @@ const std::vector<ElementOfUrdf>& elements() {
       {"link", {"name", "type"}, false},
       {"joint", {"name", "type"}, false},
       {"inertial", {}},
-      {"origin", {"xyz", "rpy"}},
+      {"origin", {"xyz", "rpy", "quat_xyzw"}},
       {"mass", {"value"}},
       {"inertia", {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"}},
       {"parent", {"link"}, false},

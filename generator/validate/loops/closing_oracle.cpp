@@ -118,11 +118,20 @@ ScaledReal squared_change(const Closed& c) {
   return c.opening.with_scale(std::numeric_limits<double>::epsilon() * scale * scale);
 }
 
+/// rad or m. A position that is zero but for what the numbers of the description disagree by is made of lengths and
+/// directions that are larger than that.
+constexpr long double kLeastScale = 1e-20L;
+
+Closed with_least_scales(Closed c) {
+  for (ScaledReal& entry : c.y) entry = entry.with_scale(kLeastScale);
+  return c;
+}
+
 }  // namespace
 
 std::vector<Expected> closing_expected(const LoopScene& scene, const State& open,
                                        const ir::Program& program) {
-  const Closed c = closed(scene, open);
+  const Closed c = with_least_scales(closed(scene, open));
   Expected expected{c.oracle, {}, scene.plan.closed_form.has_value()};
   // Determinants of velocities are over those at the start, and may be larger elsewhere.
   if (!scene.closure.carried().empty()) expected.largest_share = std::numeric_limits<double>::max();
