@@ -395,12 +395,12 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
     noexcept {
   Real s0, c0, t4, t5, s2, c2, t16, t17;
   detail::sine_cosine4(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], s2, c2, state.y[3], t16, t17);
+  Real s4, c4;
+  detail::sine_cosine(state.y[4], s4, c4);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   const Real s3 = c2 * t16 + s2 * t17;
   const Real c3 = s2 * t16 - c2 * t17;
-  Real s4, c4;
-  detail::sine_cosine(state.y[4], s4, c4);
   const Real h3b_x = c3 * Real(0.5);
   const Real h3b_y = s3 * Real(0.5);
   const Real E3 = t16 * Real(0.5) + Real(0.3333333333333333);
@@ -750,6 +750,8 @@ void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)
     noexcept {
   Real s0, c0, t4, t5, s2, c2, t22, t23;
   detail::sine_cosine4(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], s2, c2, state.y[3], t22, t23);
+  Real s4, c4;
+  detail::sine_cosine(state.y[4], s4, c4);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   const Real pin1bx1_x = s0 + c1;
@@ -758,8 +760,6 @@ void constraint_residual(const Model<Real>&, const State<Real>& state, Real (&g)
   const Real pin1d_y = c2 - pin1bx1_y;
   const Real s3 = c2 * t22 + s2 * t23;
   const Real c3 = s2 * t22 - c2 * t23;
-  Real s4, c4;
-  detail::sine_cosine(state.y[4], s4, c4);
   const Real pin2bx3_x = s2 + c3;
   const Real pin2d_x = pin2bx3_x + (Real(1.0) - s4);
   const Real pin2bx3_y = c2 + s3;
@@ -779,12 +779,12 @@ void constraint_forces(const Model<Real>&, const State<Real>& state, const Input
     noexcept {
   Real s0, c0, t4, t5, s2, c2, t16, t17;
   detail::sine_cosine4(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], s2, c2, state.y[3], t16, t17);
+  Real s4, c4;
+  detail::sine_cosine(state.y[4], s4, c4);
   const Real s1 = c0 * t4 + s0 * t5;
   const Real c1 = s0 * t4 - c0 * t5;
   const Real s3 = c2 * t16 + s2 * t17;
   const Real c3 = s2 * t16 - c2 * t17;
-  Real s4, c4;
-  detail::sine_cosine(state.y[4], s4, c4);
   const Real h3b_x = c3 * Real(0.5);
   const Real h3b_y = s3 * Real(0.5);
   const Real E3 = t16 * Real(0.5) + Real(0.3333333333333333);

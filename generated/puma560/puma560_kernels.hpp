@@ -877,12 +877,12 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
     noexcept {
   Real s1, c1, t4, t5, s3, c3, s4, c4;
   detail::sine_cosine4(state.y[1], s1, c1, state.y[2], t4, t5, state.y[3], s3, c3, state.y[4], s4, c4);
+  Real s5, c5;
+  detail::sine_cosine(state.y[5], s5, c5);
   const Real s2 = c1 * t4 + s1 * t5;
   const Real c2 = s1 * t4 - c1 * t5;
   const Real r2_x = s1 * Real(0.4318);
   const Real r2_y = c1 * Real(0.4318);
-  Real s5, c5;
-  detail::sine_cosine(state.y[5], s5, c5);
   const Real w2_z = state.z[1] + state.z[2];
   const Real w3pp_x = c2 * state.z[0];
   const Real w3pp_y = s2 * state.z[0];

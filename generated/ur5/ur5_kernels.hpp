@@ -399,14 +399,14 @@ template <class Real> JOURDAIN_FUNCTION
 void mass_matrix(const Model<Real>&, const State<Real>& state, Real (&M)[6][6]) noexcept {
   Real s1, c1, t4, t5, t16, t17, s4, c4;
   detail::sine_cosine4(state.y[1], s1, c1, state.y[2], t4, t5, state.y[3], t16, t17, state.y[4], s4, c4);
+  Real s5, c5;
+  detail::sine_cosine(state.y[5], s5, c5);
   const Real s2 = c1 * t4 + s1 * t5;
   const Real c2 = s1 * t4 - c1 * t5;
   const Real r2_x = s1 * Real(0.425);
   const Real r2_y = c1 * Real(0.425);
   const Real s3 = c2 * t16 - s2 * t17;
   const Real c3 = s2 * t16 + c2 * t17;
-  Real s5, c5;
-  detail::sine_cosine(state.y[5], s5, c5);
   const Real S5b_t = s5 * Real(0.016685526854599998);
   const Real t32 = s5 * S5b_t;
   const Real S5b_xx = t32 + Real(0.0002254731454000014);
@@ -475,6 +475,8 @@ template <class Real> JOURDAIN_FUNCTION
 void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept {
   Real s1, c1, t4, t5, t16, t17, s4, c4;
   detail::sine_cosine4(state.y[1], s1, c1, state.y[2], t4, t5, state.y[3], t16, t17, state.y[4], s4, c4);
+  Real s5, c5;
+  detail::sine_cosine(state.y[5], s5, c5);
   const Real s2 = c1 * t4 + s1 * t5;
   const Real c2 = s1 * t4 - c1 * t5;
   const Real r2_x = s1 * Real(0.425);
@@ -483,8 +485,6 @@ void k_bar(const Model<Real>&, const State<Real>& state, Real (&k)[6]) noexcept 
   const Real c3 = s2 * t16 + c2 * t17;
   const Real r3_x = s2 * Real(0.39225);
   const Real r3_y = c2 * Real(0.39225);
-  Real s5, c5;
-  detail::sine_cosine(state.y[5], s5, c5);
   const Real S5b_t = s5 * Real(0.016685526854599998);
   const Real t35 = s5 * S5b_t;
   const Real S5b_xx = t35 + Real(0.0002254731454000014);
@@ -613,6 +613,8 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
     noexcept {
   Real s1, c1, t4, t5, t16, t17, s4, c4;
   detail::sine_cosine4(state.y[1], s1, c1, state.y[2], t4, t5, state.y[3], t16, t17, state.y[4], s4, c4);
+  Real s5, c5;
+  detail::sine_cosine(state.y[5], s5, c5);
   const Real s2 = c1 * t4 + s1 * t5;
   const Real c2 = s1 * t4 - c1 * t5;
   const Real r2_x = s1 * Real(0.425);
@@ -621,8 +623,6 @@ void forward_dynamics(const Model<Real>&, const State<Real>& state, const Input<
   const Real c3 = s2 * t16 + c2 * t17;
   const Real r3_x = s2 * Real(0.39225);
   const Real r3_y = c2 * Real(0.39225);
-  Real s5, c5;
-  detail::sine_cosine(state.y[5], s5, c5);
   const Real S5b_t = s5 * Real(0.016685526854599998);
   const Real t35 = s5 * S5b_t;
   const Real S5b_xx = t35 + Real(0.0002254731454000014);
@@ -792,6 +792,8 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
     noexcept {
   Real s1, c1, t4, t5, t16, t17, s4, c4;
   detail::sine_cosine4(state.y[1], s1, c1, state.y[2], t4, t5, state.y[3], t16, t17, state.y[4], s4, c4);
+  Real s5, c5;
+  detail::sine_cosine(state.y[5], s5, c5);
   const Real s2 = c1 * t4 + s1 * t5;
   const Real c2 = s1 * t4 - c1 * t5;
   const Real r2_x = s1 * Real(0.425);
@@ -800,8 +802,6 @@ void inverse_dynamics(const Model<Real>&, const State<Real>& state, const Real (
   const Real c3 = s2 * t16 + c2 * t17;
   const Real r3_x = s2 * Real(0.39225);
   const Real r3_y = c2 * Real(0.39225);
-  Real s5, c5;
-  detail::sine_cosine(state.y[5], s5, c5);
   const Real w2_z = state.z[1] + state.z[2];
   const Real w3_z = w2_z + state.z[3];
   const Real w4pp_x = c3 * state.z[0];
@@ -932,6 +932,8 @@ template <class Real> JOURDAIN_FUNCTION
 Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   Real s1, c1, t4, t5, t16, t17, s4, c4;
   detail::sine_cosine4(state.y[1], s1, c1, state.y[2], t4, t5, state.y[3], t16, t17, state.y[4], s4, c4);
+  Real s5, c5;
+  detail::sine_cosine(state.y[5], s5, c5);
   const Real s2 = c1 * t4 + s1 * t5;
   const Real c2 = s1 * t4 - c1 * t5;
   const Real r2_x = s1 * Real(0.425);
@@ -939,8 +941,6 @@ Real kinetic_energy(const Model<Real>&, const State<Real>& state) noexcept {
   const Real s3 = c2 * t16 - s2 * t17;
   const Real c3 = s2 * t16 + c2 * t17;
   const Real r3_x = s2 * Real(0.39225);
-  Real s5, c5;
-  detail::sine_cosine(state.y[5], s5, c5);
   const Real S5b_t = s5 * Real(0.016685526854599998);
   const Real t34 = s5 * S5b_t;
   const Real S5b_xx = t34 + Real(0.0002254731454000014);

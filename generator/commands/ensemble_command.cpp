@@ -199,8 +199,10 @@ void add_ensemble(CLI::App& app, int& status) {
                       "file with a row for each state: .h5 (HDF5, for merge), else CSV");
   command->add_option("--plot", arguments->plot, kEnsemblePlotHelp);
   command
-      ->add_option("--accuracy", arguments->accuracy,
-                   "what half the step may move ends by, in deviations, without an error")
+      ->add_option(
+          "--accuracy", arguments->accuracy,
+          "what half the step may move ends by, in deviations (in thousandths of what is the same in all "
+          "states), without an error")
       ->check(positive_number())
       ->capture_default_str();
   command->callback([arguments, &status] { status = run(*arguments); });

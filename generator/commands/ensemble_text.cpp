@@ -50,8 +50,10 @@ std::string statistics_table(const std::vector<EnsembleColumn>& columns,
     if (i == 0 && columns[i].is_drawn) text += "  drawn\n";
     if (!columns[i].is_drawn && (i == 0 || columns[i - 1].is_drawn)) text += "  at the end\n";
     const Statistics& s = statistics[i];
-    text += fmt::format("    {:<{}}{:>12.5g}{:>12.5g}{:>12.5g}{:>12.5g}{:>12.5g}{:>12.5g}{:>12.5g}\n",
-                        names[i], width, s.mean, s.deviation, s.least, s.low, s.median, s.high, s.greatest);
+    text += fmt::format("    {:<{}}", names[i], width);
+    for (const double number : {s.mean, s.deviation, s.least, s.low, s.median, s.high, s.greatest})
+      text += fmt::format(" {:>11.5g}", number);
+    text += "\n";
   }
   return text;
 }

@@ -12,12 +12,15 @@ namespace jourdain::commands {
 
 namespace {
 
-/// The most that half the step changes an end in a column by, over its deviation.
+/// The most that half the step changes an end in a column by, over its deviation; over a thousandth of its size where
+/// all states end alike, as nothing spreads it.
 double column_error(const EnsembleResult& result, const std::vector<double>& values,
                     const std::vector<double>& halved, const Statistics& s) {
   constexpr double kRounding = 1e-6;  // of a number's size: less is not looked at
+  constexpr double kAlike = 1e-3;     // of a number's size, where all are the same
   const double size = std::max(std::fabs(s.least), std::fabs(s.greatest));
-  const double unit = std::max({s.deviation, kRounding * size, 1e-12});
+  const double share = s.least == s.greatest ? kAlike : kRounding;
+  const double unit = std::max({s.deviation, share * size, 1e-12});
   double worst = 0;
   for (std::size_t k = 0; k < halved.size(); ++k) {
     if (!result.trusted[k]) continue;

@@ -103,19 +103,25 @@ void add_block(Statements& to, const Statements& body, const std::vector<std::si
 
 std::optional<SineBlocks> in_sine_blocks(const Statements& body) {
   Beginning beginning(body);
-  std::vector<std::size_t> pairs = beginning.pairs();
+  const std::vector<std::size_t> pairs = beginning.pairs();
   if (pairs.size() < 2) return {};
-  if (pairs.size() % 4 == 1) pairs.pop_back();
+  const auto declaration = [&](std::size_t i) {
+    return beginning.declaration(std::get<SineCosine>(body[i].is).sine);
+  };
   std::set<std::size_t> moved = beginning.early();
   SineBlocks result;
   for (const std::size_t i : moved) result.body.push_back(body[i]);
-  for (std::size_t first = 0; first < pairs.size(); first += result.sizes.back()) {
-    result.sizes.push_back(std::min<std::size_t>(pairs.size() - first, 4));
+  const std::size_t in_blocks = pairs.size() % 4 == 1 ? pairs.size() - 1 : pairs.size();
+  for (std::size_t first = 0; first < in_blocks; first += result.sizes.back()) {
+    result.sizes.push_back(std::min<std::size_t>(in_blocks - first, 4));
     add_block(result.body, body, pairs, first, result.sizes.back());
   }
+  // One that is left over begins while the blocks' are under way: inverse dynamics of the UR5 take 0.93 to 0.96.
+  for (std::size_t k = in_blocks; k < pairs.size(); ++k)
+    for (const std::size_t i : {declaration(pairs[k]), pairs[k]}) result.body.push_back(body[i]);
   for (const std::size_t i : pairs) {
     moved.insert(i);
-    moved.insert(beginning.declaration(std::get<SineCosine>(body[i].is).sine));
+    moved.insert(declaration(i));
   }
   for (std::size_t i = 0; i < body.size(); ++i)
     if (!moved.count(i)) result.body.push_back(body[i]);

@@ -15,7 +15,7 @@ struct SineBlocks {
 };
 
 /// The same values: pairs of angles that are known when a body begins are computed first, by `sine_cosine4`,
-/// `sine_cosine3` and `sine_cosine2`; one that is left over stays where it is. Nothing where there are no two.
+/// `sine_cosine3` and `sine_cosine2`; one that is left over comes after them. Nothing where there are no two.
 std::optional<SineBlocks> in_sine_blocks(const Statements& body);
 
 }  // namespace jourdain::emit

@@ -149,6 +149,29 @@ TEST_F(EnsembleCommand, SaysWhatItsStepIsNotGoodFor) {
   expect(run({"--spread", "rail_velocity=normal(1e-9)", "--accuracy", "1e9"}, "1"), 0, "of a deviation");
 }
 
+/// Another mass, which is slowed by so many N s/m and by no draw: a step is judged by the size of where it ends.
+TEST_F(EnsembleCommand, JudgesWhatNothingSpreadsByItsSize) {
+  const auto slowed_by = [this](const char* damping) {
+    support::write_file(model_, kSlowing + fmt::format(R"(
+[[body]]
+name = "other"
+mass = 1
+[[joint]]
+name = "other_rail"
+type = "prismatic"
+parent = "world"
+child = "other"
+axis = [1, 0, 0]
+damping = {}
+initial_velocity = 3.0
+)",
+                                                       damping));
+    return run({"--spread", "rail_velocity=normal(0.3)"}, "0.1");
+  };
+  expect(slowed_by("2"), 0, "(other_rail_velocity)");
+  expect(slowed_by("8"), 1, "the step is too long");
+}
+
 TEST_F(EnsembleCommand, SaysWhichStatesAreNotToBeTrusted) {
   std::string stiff = kSlowing;
   stiff.replace(stiff.find("range = [0.1, 1.0]"), 18, "range = [0.1, 1e9]");
