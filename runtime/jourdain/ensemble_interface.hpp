@@ -28,6 +28,10 @@
 
 namespace jourdain {
 
+// Tables are of the library that they are compiled into: GCC makes what functions of templates keep one of a whole
+// process, so that two libraries with models of one name would have those of the first.
+namespace {
+
 template <template <class> class ModelOf, class Real, std::size_t lanes = natural_lanes<Real>>
 class EnsembleInterface {
  public:
@@ -294,5 +298,7 @@ class EnsembleInterface {
     return JOURDAIN_OK;
   }
 };
+
+}  // namespace
 
 }  // namespace jourdain

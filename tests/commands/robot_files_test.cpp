@@ -126,6 +126,14 @@ TEST_F(RobotFiles, WeldsMayHaveRowsThatHoldNothing) {
          {R"(axis="0 1 0")", R"(axis="0.3 0.2 0.7" pos="0.02 0.17 0.05")",
           R"(type="slide" axis="0.3 0.2 0.7")", R"(type="ball")", R"(type="ball" pos="0.02 0.17 0.05")"})
       expect(jourdain("w.xml", locked(place, joint), {"check", "--name", "w"}), 0, "1 degree of freedom");
+  // 0.076 + 0.101 is not 0.177: 1.4e-17 m.
+  expect(
+      jourdain("w.xml",
+               R"(<mujoco><worldbody><body name="b0" pos="0.076 0 0.229"><joint axis="0 1 0"/>)" + inertial +
+                   R"(<body name="b1" pos="0.101 0 -0.144"><joint type="slide" axis="1 0 0"/>)" + inertial +
+                   R"(</body></body></worldbody><equality><weld body1="b1"/></equality></mujoco>)",
+               {"check", "--name", "w"}),
+      0, "0 degrees of freedom");
   std::string chain, ends;
   for (const char* body : {"a", "b", "c", "e"}) {
     chain += fmt::format("<body name=\"{0}\" pos=\"{1} 0\"><joint name=\"j{0}\" axis=\"0 0 1\"/>{2}", body,

@@ -95,6 +95,7 @@ class Sketch {
   /// The blocks' rows in another order; `with_spans`: rods are known to be some.
   ClosedFormRequest request(const loops::PositionBlock& unknowns, bool with_spans) {
     ClosedFormRequest request;
+    request.nothing = 1e-13;  // numbers are drawn and placed in double here
     ir::Builder spans = builder_;
     std::size_t rod = 0;
     for (const auto& [row, difference] : spans_) {

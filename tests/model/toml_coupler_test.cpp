@@ -127,6 +127,12 @@ TEST(TomlCoupler, OfALockedLeaderLocksItsFollower) {
 }
 
 TEST(TomlCoupler, IsGoneWithItsJoints) {
+  const std::string held = "[[coupler]]\ncoordinate = \"rack\"\nfollows = \"wheel\"\nratio = \"0.5 m\"\n";
+  const ReadOptions both = {.locked_joints = {"wheel", "rack"}};
+  EXPECT_EQ(read(held, both).diagnostics, "");
+  EXPECT_NE(read(held + "offset = \"0.1 m\"\n", both)
+                .diagnostics.find("note: joint 'rack' is locked and does not follow 'wheel'"),
+            std::string::npos);
   const Read of = read("[[coupler]]\nname = \"d\"\nterms = { wheel = 1, rack = 1 }\n",
                        {.locked_joints = {"wheel", "rack"}});
   EXPECT_TRUE(of.mechanism.loops.empty());

@@ -162,6 +162,35 @@ TEST(Python, BatchesInVectorsAreThoseOfScalarCode) {
   EXPECT_THAT(result.output, testing::ContainsRegex("Ran 5 tests"));
 }
 
+/// One process, two libraries with tables of ensembles of one name: each steps its own.
+TEST(Python, ModelsOfOneNameHaveTheirOwnVectors) {
+  const support::TemporaryFolder folder;
+  std::string scene = support::read_file(kSource + "/models/pendulum.toml");
+  const std::size_t gravity = scene.find("-9.81");
+  ASSERT_NE(gravity, std::string::npos);
+  for (const char* planet : {"earth", "moon"}) {
+    const std::string model = fmt::format("{}/{}.toml", folder.path(), planet);
+    support::write_file(model, scene);
+    const ProcessResult made = make(model, fmt::format("{}/{}", folder.path(), planet), {"--packs"});
+    EXPECT_EQ(made.status, 0) << made.output;
+    scene.replace(gravity, 5, "-1.62");
+  }
+  const ProcessResult result = run_python({"-c", R"py(
+from earth import pendulum as earth
+from moon import pendulum as moon
+ends = []
+for module in (earth, moon):
+    model = module.Model()
+    one = model.simulate(model.initial_state(), 1, 1e-3)["pivot"][-1]
+    many = model.simulate(model.initial_state(16), 1, 1e-3)["pivot"][0, -1]
+    assert one == many, (module, one, many)
+    ends.append(one)
+assert abs(ends[0] - ends[1]) > 0.1, ends
+)py"},
+                                          folder.path());
+  EXPECT_EQ(result.status, 0) << result.output;
+}
+
 struct Run {
   const char* model;
   const char* duration;

@@ -9,9 +9,6 @@ namespace {
 
 using Result = std::variant<Solution, std::string>;
 
-/// Of a row's largest coefficient: rounding of numbers that a model gives to 15 digits.
-constexpr double kRounding = 1e-13;
-
 constexpr const char* kOtherForm = "its constraint is none of those that are solved in closed form";
 constexpr const char* kUndetermined = "its constraint does not determine it at the initial state";
 constexpr const char* kDead = "the initial state is a dead position";
@@ -259,18 +256,19 @@ class Solver {
 
 }  // namespace
 
-void drop_rounding(std::vector<Polynomial>& rows, const Samples& samples) {
+void drop_nothing(std::vector<Polynomial>& rows, const Samples& samples, double nothing) {
   for (Polynomial& row : rows) {
     std::vector<Scalar> coefficients;
     for (const auto& [powers, coefficient] : row) coefficients.push_back(coefficient);
     std::vector<double> largest(coefficients.size(), 0);
-    for (const std::vector<double>& values : evaluated(coefficients, samples))
+    for (const std::vector<support::ScaledReal>& values : exactly_evaluated(coefficients, samples))
       for (std::size_t i = 0; i < values.size(); ++i)
-        if (std::isfinite(values[i])) largest[i] = std::max(largest[i], std::fabs(values[i]));
+        if (values[i].is_number())
+          largest[i] = std::max(largest[i], std::fabs(static_cast<double>(values[i])));
     const double scale = largest.empty() ? 0 : *std::max_element(largest.begin(), largest.end());
     std::size_t i = 0;
     for (auto it = row.begin(); it != row.end(); ++i)
-      it = largest[i] <= kRounding * scale && !is_literal(it->second) ? row.erase(it) : std::next(it);
+      it = largest[i] <= nothing * scale ? row.erase(it) : std::next(it);
   }
 }
 

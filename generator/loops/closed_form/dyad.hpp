@@ -22,7 +22,8 @@ struct Solution {
 std::variant<Solution, std::string> solve(ir::Builder& builder, std::vector<Polynomial> rows,
                                           const std::vector<double>& initial, const Samples& samples);
 
-/// Leaves out coefficients that are nothing but rounding at all samples.
-void drop_rounding(std::vector<Polynomial>& rows, const Samples& samples);
+/// Leaves out coefficients that are at most `nothing` of their row's largest at all samples, computed with 60 digits:
+/// what a file's digits disagree by stays.
+void drop_nothing(std::vector<Polynomial>& rows, const Samples& samples, double nothing);
 
 }  // namespace jourdain::loops

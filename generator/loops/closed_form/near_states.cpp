@@ -45,13 +45,35 @@ Samples samples_near(const std::vector<double>& initial_y, const std::vector<boo
   return samples;
 }
 
-std::vector<std::vector<double>> evaluated(const std::vector<Scalar>& values, const Samples& samples) {
-  std::vector<std::vector<double>> results(samples.size());
-  if (values.empty()) return results;
+namespace {
+
+/// None of no values.
+ir::Program program_of(const std::vector<Scalar>& values) {
+  if (values.empty()) return {};
   ir::Builder builder = *values[0].builder;
   for (const Scalar& value : values) builder.output("value", -1, -1, value.value);
-  const ir::Program program = passes::remove_dead_code(builder.finish("values"));
-  for (std::size_t i = 0; i < samples.size(); ++i) results[i] = ir::interpret(program, samples[i]);
+  return passes::remove_dead_code(builder.finish("values"));
+}
+
+}  // namespace
+
+std::vector<std::vector<double>> evaluated(const std::vector<Scalar>& values, const Samples& samples) {
+  std::vector<std::vector<double>> results;
+  const ir::Program program = program_of(values);
+  for (const ir::LeafValues<double>& sample : samples) results.push_back(ir::interpret(program, sample));
+  return results;
+}
+
+std::vector<std::vector<support::ScaledReal>> exactly_evaluated(const std::vector<Scalar>& values,
+                                                                const Samples& samples) {
+  std::vector<std::vector<support::ScaledReal>> results;
+  const ir::Program program = program_of(values);
+  for (const ir::LeafValues<double>& sample : samples) {
+    ir::LeafValues<support::ScaledReal> exact;
+    for (std::size_t kind = 0; kind < sample.of.size(); ++kind)
+      exact.of[kind].assign(sample.of[kind].begin(), sample.of[kind].end());
+    results.push_back(ir::interpret(program, exact));
+  }
   return results;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "loops/closed_form/scalar.hpp"
+#include "support/scaled_real.hpp"
 
 namespace jourdain::loops {
 
@@ -22,6 +23,10 @@ Samples samples_near(const std::vector<double>& initial_y, const std::vector<boo
 
 /// By state, then by value. Values that do not exist at a state are not numbers.
 std::vector<std::vector<double>> evaluated(const std::vector<Scalar>& values, const Samples& samples);
+
+/// The same with 60 digits.
+std::vector<std::vector<support::ScaledReal>> exactly_evaluated(const std::vector<Scalar>& values,
+                                                                const Samples& samples);
 
 /// The value at the initial state.
 double initial(Scalar value, const Samples& samples);

@@ -240,7 +240,7 @@ class Closing {
     auto expanded = polynomials_of(builder_, request_.g, values_of(block.rows), roles_);
     if (const auto* failure = std::get_if<std::string>(&expanded)) return *failure;
     auto& rows = std::get<std::vector<Polynomial>>(expanded);
-    drop_rounding(rows, samples_);
+    drop_nothing(rows, samples_, request_.nothing);
     if (block.rotation) return take(entries_of(block), solved_rotation(block, rows));
     if (const auto first = row_of_one(rows)) {
       const auto [row, unknown] = *first;

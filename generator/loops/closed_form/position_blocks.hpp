@@ -46,6 +46,7 @@ struct ClosedFormRequest {
   ir::Program jacobian = {};  ///< outputs ("G", row, column)
   std::vector<Elimination> eliminations = {};  ///< whose pivots are to be proven
   std::vector<VelocityBlock> velocities = {};  ///< whose determinants must not vanish
+  double nothing = 1e-45;  ///< of a row's largest coefficient, computed with 60 digits: smaller ones are zero
 };
 
 /// Solves blocks of one coordinate (linear, or α cos + β sin = γ) and of two: two angles of which the rows are

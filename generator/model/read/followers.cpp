@@ -34,7 +34,8 @@ void settle_followers(Mechanism& mechanism, std::vector<std::string>& names,
   const std::vector<Joint>& joints = mechanism.joints;
   std::erase_if(mechanism.loops, [&](const Loop& loop) {
     if (!loop.follower || !is_named(names, joints[loop.follower->joint.value])) return false;
-    if (const auto before = leader(loop); before && !is_named(names, joints[before->value]))
+    if (const auto before = leader(loop);
+        before && (has_offset(loop) || !is_named(names, joints[before->value])))
       diagnostics.note(loop.where, fmt::format("joint '{}' is locked and does not follow '{}'",
                                                shown(joints[loop.follower->joint.value].name),
                                                shown(joints[before->value].name)));
