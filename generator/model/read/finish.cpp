@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "model/check/checks.hpp"
@@ -48,7 +49,7 @@ void keep_useful_limits(Mechanism& mechanism) {
   for (Joint& joint : mechanism.joints)
     for (Coordinate& coordinate : joint.coordinates) {
       if (!coordinate.range_is_limit || !coordinate.range) continue;
-      const double start = coordinate.initial_position.evaluate<double>(parameters);
+      const auto start = coordinate.initial_position.evaluate<double>(parameters);
       const auto [low, high] = *coordinate.range;
       if (!closes || !(low <= start && start <= high)) coordinate.range.reset();
     }
@@ -57,12 +58,13 @@ void keep_useful_limits(Mechanism& mechanism) {
 }  // namespace
 
 std::optional<Mechanism> finish_reading(Part part, const ReadOptions& options, Diagnostics& diagnostics) {
-  auto& [mechanism, complete, triangle] = part;
+  auto [mechanism, complete, triangle] = std::move(part);
   mechanism.snap = options.snap > 0;
   if (complete.structure) lock_joints(mechanism, options, diagnostics);
   keep_useful_limits(mechanism);
   // Of cables: the frame of an imported file's world may be on a body here.
-  std::erase_if(mechanism.loads, [&](const Load& load) { return !mechanism.frames[load.frame.value].body; });
+  const std::vector<Frame>& frames = mechanism.frames;
+  std::erase_if(mechanism.loads, [&frames](const Load& load) { return !frames[load.frame.value].body; });
   if (mechanism.snap) snap_directions(mechanism, options.snap, diagnostics);
   check_numbers(mechanism, diagnostics);
   const bool tree = complete.structure && check_graph(mechanism, diagnostics);
