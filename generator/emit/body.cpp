@@ -188,17 +188,17 @@ class BodyBuilder {
   }
 
   /// A value of an earlier part, where it is first read.
-  Statement fetched_statement(std::size_t i, std::size_t slot) const {
+  Statement fetched_statement(std::size_t i, std::size_t entry) const {
     const Expression w = name("w");
     const std::size_t width = bundles_.width(i);
-    return width == 1 ? constant(name_[i], w[slot])
-                      : constant_lanes(name_[i], width, lanes(entries(w, slot, width)));
+    return width == 1 ? constant(name_[i], w[entry])
+                      : constant_lanes(name_[i], width, lanes(entries(w, entry, width)));
   }
 
   /// To later parts, as soon as it is known: what waits for the end of a part keeps a register or is stored twice.
-  void pass_on(Statements& part, std::size_t i, std::size_t slot) const {
+  void pass_on(Statements& part, std::size_t i, std::size_t entry) const {
     for (std::size_t l = 0; l < bundles_.width(i); ++l)
-      part.push_back(set(name("w")[slot + l], by_name(bundles_.together(i)[l])));
+      part.push_back(set(name("w")[entry + l], by_name(bundles_.together(i)[l])));
   }
 
   static std::vector<Expression> entries(const Expression& array, std::size_t first, std::size_t count) {

@@ -25,8 +25,8 @@ struct Declaration {
 struct Parts {
   std::size_t count = 1;
   std::map<std::size_t, std::size_t> part_of;  ///< by value
-  std::map<std::size_t, std::size_t>
-      entries;           ///< of the array, the first of `width`: for what a later part reads
+  /// Of the array, the first of `width`, for each value that a later part reads.
+  std::map<std::size_t, std::size_t> entries;
   std::size_t size = 0;  ///< of the array; its entries are used again
 };
 

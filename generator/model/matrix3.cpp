@@ -87,6 +87,14 @@ Matrix3 transposed(const Matrix3& a) {
   return {{{a[0][0], a[1][0], a[2][0]}, {a[0][1], a[1][1], a[2][1]}, {a[0][2], a[1][2], a[2][2]}}};
 }
 
+Numbers3 rpy_of(const Matrix3& R, double tolerance) {
+  const double level = std::hypot(R[0][0], R[1][0]);
+  const double yaw = level <= tolerance ? 0.0 : std::atan2(R[1][0], R[0][0]);
+  const double c = std::cos(yaw), s = std::sin(yaw);
+  return {std::atan2(s * R[0][2] - c * R[1][2], c * R[1][1] - s * R[0][1]),
+          std::atan2(-R[2][0], c * R[0][0] + s * R[1][0]), yaw};
+}
+
 std::optional<Matrix3> rotation_from_quaternion(const std::array<double, 4>& q) {
   const double length = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
   if (!(length > 0) || !std::isfinite(length)) return {};

@@ -14,6 +14,11 @@ inline constexpr Matrix3 kIdentity3{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 /// R = Rz(rpy[2]) Ry(rpy[1]) Rx(rpy[0]); angles in rad, columns are the rotated axes.
 Matrix3 rotation_from_rpy(const Numbers3& rpy);
 
+/// Roll, pitch, yaw; the yaw is zero where the pitch is within `tolerance` (rad) of a right angle. Roll is what the
+/// rotation without that yaw has left, so that the three together are exact where roll and yaw turn about nearly the
+/// same axis.
+Numbers3 rpy_of(const Matrix3& R, double tolerance = 0);
+
 /// Of w x y z of any length; nothing where that is zero or not finite.
 std::optional<Matrix3> rotation_from_quaternion(const std::array<double, 4>& q);
 /// Unit quaternion w x y z of a rotation, w not negative.

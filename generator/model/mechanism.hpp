@@ -217,8 +217,8 @@ struct Loop {
   /// it, in that order as arguments.
   Expression height;
   int approaches = 4;  ///< Newton's steps from under the centre to where the ground is touched
-  bool continues =
-      false;  ///< the loop before: a file gives both as one, which may have rows that hold nothing
+  /// The loop before: a file gives both as one connection, which may have rows that hold nothing.
+  bool continues = false;
   std::optional<ScalarCoordinate> follower;  ///< of a coupler: follows the residual's other coordinate
   SourceRange where = {};
   SourceRange to_where = {};  ///< of the name of the end `to`; line 0: use `where`

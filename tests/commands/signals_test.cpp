@@ -59,6 +59,10 @@ TEST_F(Signals, StatesHaveTheirOwnNames) {
   const std::vector<std::string> names = columns();
   EXPECT_EQ(std::count(names.begin(), names.end(), "current"), 1);
   EXPECT_EQ(std::count(names.begin(), names.end(), "current_velocity"), 0);
+  const support::ProcessResult drawn =
+      support::run_process({"env", "-C", folder_.path(), JOURDAIN_BINARY, "ensemble", servo_arm, "--states",
+                            "8", "--duration", "0.01", "--step", "1e-4", "--spread", "current=uniform(0.5)"});
+  expect(drawn, 0, "current_at_start, A");
 }
 
 TEST_F(Signals, InputsOutputsAndEnergiesAreDrawn) {

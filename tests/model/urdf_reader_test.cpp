@@ -123,7 +123,7 @@ TEST(ReadUrdf, ReadsPlanarJointsAndFloatingOnesOnTheRoot) {
   EXPECT_FALSE(floating.joints[0].parent);
 }
 
-/// A quarter turn about z, then 0.2 rad of the child's; both are where the free joint starts.
+/// 0.6 rad about z: half of it in the quaternion.
 TEST(ReadUrdf, FloatingJointsStartAtTheirOrigin) {
   const Mechanism m = read_cleanly(
       "<robot name='r'><link name='world'/><link name='b'><inertial><mass value='1'/><inertia ixx='1' "

@@ -33,16 +33,6 @@ Matrix3 turned_about(const Numbers3& u, double c, double s) {
   return R;
 }
 
-/// Roll, pitch, yaw. Where roll and yaw turn about nearly the same axis, roll is what the rotation without that yaw
-/// has left, so that the three together are exact.
-Numbers3 rpy_of(const Matrix3& R) {
-  const double yaw = std::atan2(R[1][0], R[0][0]);
-  const double c = std::cos(yaw), s = std::sin(yaw);
-  const double pitch = std::atan2(-R[2][0], c * R[0][0] + s * R[1][0]);
-  const double roll = std::atan2(s * R[0][2] - c * R[1][2], c * R[1][1] - s * R[0][1]);
-  return {roll, pitch, yaw};
-}
-
 }  // namespace
 
 Numbers3 times(const Numbers3& v, double factor) { return {v[0] * factor, v[1] * factor, v[2] * factor}; }

@@ -30,14 +30,6 @@ SdfPose relative(const SdfPose& a, const SdfPose& b) {
   return result;
 }
 
-Numbers3 rpy_of(const Matrix3& R, double tolerance) {
-  const double level = std::hypot(R[0][0], R[1][0]);
-  const double yaw = level <= tolerance ? 0.0 : std::atan2(R[1][0], R[0][0]);
-  const double c = std::cos(yaw), s = std::sin(yaw);
-  return {std::atan2(s * R[0][2] - c * R[1][2], c * R[1][1] - s * R[0][1]),
-          std::atan2(-R[2][0], c * R[0][0] + s * R[1][0]), yaw};
-}
-
 Placement placement_of(const SdfPose& pose, double tolerance, SourceRange where) {
   const Numbers3 rpy = pose.rotation == kIdentity3 ? Numbers3{} : rpy_of(pose.rotation, tolerance);
   const Numbers3& p = pose.position;

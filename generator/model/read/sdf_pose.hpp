@@ -25,9 +25,6 @@ SdfPose relative(const SdfPose& a, const SdfPose& b);
 /// Rᵀ v.
 Numbers3 turned_back(const Matrix3& R, const Numbers3& v);
 
-/// Roll, pitch, yaw of a rotation; the yaw is zero where the pitch is within `tolerance` (rad) of a right angle.
-Numbers3 rpy_of(const Matrix3& R, double tolerance);
-
 /// As a mechanism has it; `where` is of what gives its angles.
 Placement placement_of(const SdfPose& pose, double tolerance, SourceRange where);
 

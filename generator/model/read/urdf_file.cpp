@@ -6,7 +6,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "model/read/mjcf_pose.hpp"
+#include "model/matrix3.hpp"
 #include "support/utf8.hpp"
 
 namespace jourdain::model {
@@ -164,7 +164,10 @@ Placement UrdfFile::turned_by_quaternion(const XmlElement& origin, const std::ar
   const auto rotation = rotation_from_quaternion({xyzw[3], xyzw[0], xyzw[1], xyzw[2]});
   if (diagnostics_.all().size() != mark) return {};
   if (problem.empty() && !rotation) problem = "the quaternion of <origin> is zero";
-  if (problem.empty()) return placement_of(Pose{xyz, *rotation}, where);
+  if (problem.empty()) {
+    const Numbers3 rpy = rpy_of(*rotation);
+    return {{xyz[0], xyz[1], xyz[2]}, {{rpy[0], rpy[1], rpy[2]}, where}};
+  }
   complete_.numbers = false;
   diagnostics_.error(where, problem);
   return {};
