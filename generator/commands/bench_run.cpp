@@ -4,16 +4,21 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numeric>
 #include <sstream>
 
 #include "commands/bench_states.hpp"
 #include "commands/callgrind.hpp"
 #include "commands/code_cost.hpp"
+#include "commands/issue_kernels.hpp"
+#include "commands/single_steps.hpp"
 #include "commands/tool.hpp"
 #include "emit/templates.hpp"
 #include "support/check.hpp"
 #include "support/files.hpp"
+#include "support/process.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace jourdain::commands {
@@ -63,6 +68,23 @@ std::string driver(const LoadedMechanism& loaded, const CompiledModel& compiled,
                      {"CLOSE", close}});
 }
 
+std::string processor_text(const LoadedMechanism& loaded, const BenchChoices& choices) {
+  // Numbers that stay ordinary however often they are multiplied; enough for the widest register.
+  constexpr const char *kStart = "1.7123456789, ", *kFactor = "1.0001234567891, ";
+  std::string start, factor;
+  for (int i = 0; i < (choices.is_float ? 16 : 8); ++i) {
+    start += kStart;
+    factor += kFactor;
+  }
+  const IssueKernels kernels = issue_kernels(choices.is_float);
+  return emit::fill(emit::template_text("bench_processor.hpp.in"), {{"NAME", loaded.options.name},
+                                                                    {"REAL", type_of(choices)},
+                                                                    {"START", start},
+                                                                    {"FACTOR", factor},
+                                                                    {"ISSUE", kernels.functions},
+                                                                    {"ISSUES", kernels.table}});
+}
+
 /// The words with more behind them.
 std::vector<std::string> joined(std::vector<std::string> words, const std::vector<std::string>& more) {
   words.insert(words.end(), more.begin(), more.end());
@@ -78,12 +100,14 @@ void build(const LoadedMechanism& loaded, const CompiledModel& compiled, const B
            const std::string& folder) {
   for (const emit::File& file : compiled.files) support::write_file(folder + "/" + file.name, file.text);
   support::write_file(folder + "/bench.cpp", driver(loaded, compiled, choices));
+  support::write_file(folder + "/bench_processor.hpp", processor_text(loaded, choices));
   run_tool(joined(
       compiler_words(choices),
       {"-ffunction-sections", "-c", folder + "/" + loaded.options.name + ".cpp", "-o", folder + "/model.o"}));
-  // Bound at its start, so that no call is counted with the search for a function of a library.
+  // Bound at its start, so that no call is counted with the search for a function of a library; not moved, so that
+  // addresses are those of its disassembly.
   run_tool(joined(choices.compiler, {"-std=c++17", "-O2", folder + "/bench.cpp", folder + "/model.o",
-                                     "-Wl,-z,now", "-o", folder + "/bench"}));
+                                     "-Wl,-z,now", "-no-pie", "-o", folder + "/bench"}));
 }
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
@@ -105,14 +129,22 @@ BenchRow& row_named(BenchResult& result, const std::string& name) {
   return *found;
 }
 
-/// What the program says: "finite NAME STATES", "time NAME CALLS FASTEST MEDIAN", in nanoseconds.
-void read_times(const std::string& output, BenchResult& result) {
+/// What the program says: "finite NAME STATES", "time NAME CALLS FASTEST MEDIAN", in nanoseconds; "issue NAME RATE", in
+/// instructions a nanosecond. Returns the rates, a second.
+std::map<std::string, double> read_times(const std::string& output, BenchResult& result) {
   constexpr double kNanosecond = 1e-9;
+  std::map<std::string, double> rates;
   std::istringstream lines(output);
   for (std::string line; std::getline(lines, line);) {
     std::istringstream fields(line);
     std::string kind, name;
     fields >> kind >> name;
+    if (kind == "issue") {
+      double rate = 0;
+      JD_CHECK(fields >> rate && rate > 0, "unexpected line '{}'", line);
+      rates[name] = rate / kNanosecond;
+      continue;
+    }
     BenchRow& row = row_named(result, name);
     if (kind == "finite") {
       fields >> row.finite;
@@ -123,6 +155,34 @@ void read_times(const std::string& output, BenchResult& result) {
     }
     JD_CHECK(bool(fields), "unexpected line '{}'", line);
   }
+  return rates;
+}
+
+/// Of all functions, where this machine steps.
+std::map<std::string, SteppedCalls> step_functions(const std::string& program) {
+  const support::ProcessResult steps = support::run_process({program, "steps"});
+  if (steps.status != 0) return {};
+  return read_steps(steps.output, run_tool({"objdump", "-d", "-C", "-w", "--no-show-raw-insn", program}),
+                    "jourdain_bench::");
+}
+
+/// Names of the loops that have to be timed.
+std::vector<std::string> rates_to_measure(const std::map<std::string, SteppedCalls>& stepped) {
+  ArithmeticCounts all;
+  for (const auto& [name, calls] : stepped) all.insert(calls.arithmetic.begin(), calls.arithmetic.end());
+  return issue_names(all);
+}
+
+Floor floor_of(const SteppedCalls& stepped, const std::map<std::string, double>& rates) {
+  Floor floor{0, stepped.outside, least_time(stepped.arithmetic, rates)};
+  for (const auto& [instruction, count] : stepped.arithmetic) floor.arithmetic += count;
+  return floor;
+}
+
+Instructions spread_of(const std::vector<double>& counts) {
+  const auto [least, most] = std::minmax_element(counts.begin(), counts.end());
+  return {std::accumulate(counts.begin(), counts.end(), 0.0) / static_cast<double>(counts.size()),
+          std::llround(*least), std::llround(*most)};
 }
 
 /// Calls of `signature` from functions of its own for each state.
@@ -144,21 +204,22 @@ std::optional<Instructions> instructions_of(const std::vector<CountedCalls>& cou
   return found;
 }
 
+/// By callgrind, where it can; else those of single steps.
 void count_instructions(const std::string& folder, const std::map<std::string, std::string>& signatures,
-                        BenchResult& result) {
+                        const std::map<std::string, SteppedCalls>& stepped, BenchResult& result) {
   const std::optional<std::string> version = valgrind_version();
-  if (!version) {
-    result.counter = "valgrind is not installed: instructions are not counted";
+  const std::optional<std::vector<CountedCalls>> counted =
+      version ? count_calls(folder + "/bench", folder) : std::nullopt;
+  if (counted) {
+    result.counter = *version + ", callgrind";
+    for (BenchRow& row : result.rows)
+      row.instructions = instructions_of(*counted, row.name, signatures.at(row.name));
     return;
   }
-  const std::optional<std::vector<CountedCalls>> counted = count_calls(folder + "/bench", folder);
-  if (!counted) {
-    result.counter = *version + " cannot run this code: instructions are not counted";
-    return;
-  }
-  result.counter = *version + ", callgrind";
-  for (BenchRow& row : result.rows)
-    row.instructions = instructions_of(*counted, row.name, signatures.at(row.name));
+  result.counter = version ? *version + " cannot run this code" : "valgrind is not installed";
+  result.counter += stepped.empty() ? ": instructions are not counted" : ": the processor's single steps";
+  for (const auto& [name, calls] : stepped)
+    row_named(result, name).instructions = spread_of(calls.instructions);
 }
 
 }  // namespace
@@ -168,7 +229,7 @@ BenchResult measure_functions(const LoadedMechanism& loaded, const CompiledModel
   BenchResult result;
   result.compiler = first_line(run_tool(joined(choices.compiler, {"--version"})));
   result.processor = processor_name();
-  for (const std::string& name : measured(compiled)) result.rows.push_back({name, 0, 0, 0, 0, 0, {}});
+  for (const std::string& name : measured(compiled)) result.rows.push_back({name, 0, 0, 0, 0, 0, {}, {}});
   const support::TemporaryFolder folder;
   build(loaded, compiled, choices, folder.path());
   const std::map<std::string, std::string> signatures = function_signatures(
@@ -177,10 +238,15 @@ BenchResult measure_functions(const LoadedMechanism& loaded, const CompiledModel
     for (BenchRow& row : result.rows)
       if (row.name == function) row.code = bytes;
   constexpr double kMicrosecond = 1e-6;
-  read_times(run_tool({folder.path() + "/bench", fmt::format("{}", choices.blocks),
-                       fmt::format("{}", choices.block_length / kMicrosecond)}),
-             result);
-  count_instructions(folder.path(), signatures, result);
+  const std::string program = folder.path() + "/bench";
+  const std::map<std::string, SteppedCalls> stepped = step_functions(program);
+  const std::map<std::string, double> rates =
+      read_times(run_tool(joined({program, fmt::format("{}", choices.blocks),
+                                  fmt::format("{}", choices.block_length / kMicrosecond)},
+                                 rates_to_measure(stepped))),
+                 result);
+  for (const auto& [name, calls] : stepped) row_named(result, name).floor = floor_of(calls, rates);
+  count_instructions(folder.path(), signatures, stepped, result);
   return result;
 }
 

@@ -26,6 +26,13 @@ struct Instructions {
   long long least = 0, most = 0;
 };
 
+/// What a processor cannot be faster than: the floating-point arithmetic of a call, were all else free.
+struct Floor {
+  double arithmetic = 0;  ///< its instructions; one for all numbers of a vector
+  double outside = 0;     ///< instructions of libraries, whose arithmetic is not counted
+  double time = 0;        ///< s, at the rates of instructions that do not wait for each other
+};
+
 /// Of one emitted function.
 struct BenchRow {
   std::string name;
@@ -34,6 +41,7 @@ struct BenchRow {
   int finite = 0;                            ///< states that give finite numbers
   long code = 0;                             ///< bytes, with all that it calls of the model
   std::optional<Instructions> instructions;  ///< with libm's; nothing where they could not be counted
+  std::optional<Floor> floor;                ///< nothing where single steps could not be counted
 };
 
 struct BenchResult {

@@ -38,15 +38,17 @@ Counted counted(const CompiledModel& compiled, const std::string& function) {
 std::string time_cell(double seconds) { return fmt::format("{:.1f}", seconds / kNanosecond); }
 
 std::string table(const BenchReport& report) {
-  report::TextTable table({"function", ">operations", ">sin, cos", ">ns, least", ">ns, median",
-                           ">instructions", ">at least", ">at most", ">bytes of code"});
+  report::TextTable table({"function", ">operations", ">sin, cos", ">ns, least", ">ns, median", ">floor",
+                           ">over it", ">instructions", ">at least", ">at most", ">bytes"});
   for (const BenchRow& row : report.result.rows) {
     const Counted c = counted(report.compiled, row.name);
     const auto& n = row.instructions;
+    const bool differs = n && n->least < n->most;
     table.add({row.name, fmt::format("{}", c.operations), c.sines ? fmt::format("{}", *c.sines) : "",
-               time_cell(row.fastest), time_cell(row.median), n ? fmt::format("{:.0f}", n->mean) : "",
-               n ? fmt::format("{}", n->least) : "", n ? fmt::format("{}", n->most) : "",
-               fmt::format("{}", row.code)});
+               time_cell(row.fastest), time_cell(row.median), row.floor ? time_cell(row.floor->time) : "",
+               row.floor && row.floor->time > 0 ? fmt::format("{:.2f}", row.fastest / row.floor->time) : "",
+               n ? fmt::format("{:.0f}", n->mean) : "", differs ? fmt::format("{}", n->least) : "",
+               differs ? fmt::format("{}", n->most) : "", fmt::format("{}", row.code)});
   }
   return table.text();
 }
@@ -71,13 +73,31 @@ std::vector<std::string> remarks(const BenchReport& report) {
                   choices.states, choices.seed,
                   report.loaded.plan() ? " near the start, and closed" : " in the coordinates' ranges",
                   studies::time_text(choices.step)),
-      "code is of the function with all of the model's functions that it calls, without tables and libm's"};
+      "bytes of code are of the function with all of the model's functions that it calls, without tables and "
+      "libm's"};
+  for (const BenchRow& row : report.result.rows)
+    if (row.floor) {
+      list.push_back(
+          "floor, ns: of the floating-point sums, products, quotients and roots of a call, sines with them, "
+          "as the "
+          "compiler wrote them (counted in single steps), at the rate of instructions that do not wait for "
+          "each other, "
+          "measured in the same blocks; the unit that is busy longest counts, all else is taken to be free. "
+          "Over it: "
+          "the fastest block");
+      break;
+    }
+  for (const BenchRow& row : report.result.rows)
+    if (row.floor && row.floor->outside > 0)
+      list.push_back(fmt::format("of {}, {:.0f} instructions a call are of libraries and not in the floor",
+                                 row.name, row.floor->outside));
   bool is_counted = false;
   for (const BenchRow& row : report.result.rows) is_counted = is_counted || row.instructions;
-  list.push_back(is_counted ? fmt::format("instructions are of one call with libm's, the mean over the "
-                                          "states and the ends: counted by {}, exact for this code",
-                                          report.result.counter)
-                            : report.result.counter);
+  list.push_back(
+      is_counted ? fmt::format("instructions are of one call with libm's, the mean over the "
+                               "states and the ends where they differ: counted by {}, exact for this code",
+                               report.result.counter)
+                 : report.result.counter);
   for (const BenchRow& row : report.result.rows)
     if (row.finite < choices.states)
       list.push_back(
@@ -105,11 +125,15 @@ std::string bench_json(const BenchReport& report) {
   for (const BenchRow& row : report.result.rows) {
     const Counted c = counted(report.compiled, row.name);
     const auto& n = row.instructions;
+    Json measured = {{"calls_in_a_block", row.calls}, {"least_s", row.fastest}, {"median_s", row.median}};
+    if (row.floor) measured["floor_s"] = row.floor->time;
     functions.push_back(
         {{"name", row.name},
          {"operations", c.operations},
          {"sin_and_cos", c.sines ? Json(*c.sines) : Json()},
-         {"measured", {{"calls_in_a_block", row.calls}, {"least_s", row.fastest}, {"median_s", row.median}}},
+         {"measured", measured},
+         {"floating_point_instructions", row.floor ? Json(row.floor->arithmetic) : Json()},
+         {"instructions_of_libraries", row.floor ? Json(row.floor->outside) : Json()},
          {"instructions", n ? Json({{"mean", n->mean}, {"least", n->least}, {"most", n->most}}) : Json()},
          {"code_bytes", row.code},
          {"finite_states", row.finite}});

@@ -9,6 +9,8 @@
 #include <sstream>
 
 #include "commands/callgrind.hpp"
+#include "commands/issue_kernels.hpp"
+#include "commands/single_steps.hpp"
 #include "support/files.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
@@ -88,6 +90,9 @@ TEST(Bench, CountsRepeatAndTimesAreInOrder) {
     if (function["instructions"].is_null()) continue;  // no valgrind
     EXPECT_LE(function["instructions"]["least"], function["instructions"]["mean"]) << function;
     EXPECT_LE(function["instructions"]["mean"], function["instructions"]["most"]) << function;
+    if (function["floating_point_instructions"].is_null()) continue;  // no single steps
+    EXPECT_LT(function["floating_point_instructions"], function["instructions"]["mean"]) << function;
+    EXPECT_GT(function["measured"]["floor_s"], 0) << function;
   }
   const json &dynamics = entry_of(once["functions"], "forward_dynamics"),
              &step = entry_of(once["functions"], "rk4_step");
@@ -123,16 +128,65 @@ TEST(Bench, EverySceneHasStatesAndFiniteNumbers) {
   }
 }
 
-TEST(Bench, SaysWhyInstructionsAreNotCounted) {
-  const support::TemporaryFolder folder;
-  write_program(folder.path() + "/valgrind", "exit 1");
-  json bench = bench_of("models/pendulum.toml", {"--functions", "q_bar"}, folder.path());
-  EXPECT_EQ(bench["instructions_by"], "valgrind is not installed: instructions are not counted");
-  EXPECT_TRUE(bench["functions"][0]["instructions"].is_null());
+/// Puts a valgrind there that cannot run anything.
+void write_useless_valgrind(const support::TemporaryFolder& folder) {
   write_program(folder.path() + "/valgrind", "[ \"$1\" = --version ] && echo valgrind-9");
-  bench = bench_of("models/pendulum.toml", {"--functions", "q_bar"}, folder.path());
-  EXPECT_EQ(bench["instructions_by"], "valgrind-9 cannot run this code: instructions are not counted");
 }
+
+TEST(Bench, SaysWhatCountsInstructionsWithoutCallgrind) {
+  const support::TemporaryFolder folder;
+  const auto expect = [&](const std::string& reason) {
+    const json bench = bench_of("models/pendulum.toml", {"--functions", "q_bar"}, folder.path());
+    const json& function = bench["functions"][0];
+    const bool stepped = !function["floating_point_instructions"].is_null();
+    EXPECT_EQ(bench["instructions_by"],
+              reason + (stepped ? ": the processor's single steps" : ": instructions are not counted"));
+    EXPECT_EQ(function["instructions"].is_null(), !stepped);
+  };
+  write_program(folder.path() + "/valgrind", "exit 1");
+  expect("valgrind is not installed");
+  write_useless_valgrind(folder);
+  expect("valgrind-9 cannot run this code");
+}
+
+#ifdef __x86_64__
+
+TEST(Bench, SingleStepsCountWhatCallgrindCounts) {
+  if (!commands::valgrind_version()) GTEST_SKIP() << "valgrind is not installed";
+  const support::TemporaryFolder folder;
+  write_useless_valgrind(folder);
+  const auto expect_same = [&](const std::string& model, const char* real) {
+    const std::vector<std::string> options = {"--real", real};
+    const json counted = bench_of(model, options), stepped = bench_of(model, options, folder.path());
+    ASSERT_NE(counted["instructions_by"], stepped["instructions_by"]);
+    ASSERT_EQ(counted["functions"].size(), stepped["functions"].size());
+    int compared = 0;
+    for (std::size_t i = 0; i < counted["functions"].size(); ++i) {
+      const json &one = counted["functions"][i], &other = stepped["functions"][i];
+      if (one["instructions_of_libraries"] > 0)
+        continue;  // chosen by processor, and valgrind's is another one
+      EXPECT_EQ(one["instructions"], other["instructions"]) << model << ' ' << real << ' ' << one["name"];
+      ++compared;
+    }
+    EXPECT_GT(compared, 5) << model;
+  };
+  expect_same("models/ur5.toml", "double");
+  expect_same("models/n_four_bar.toml", "float");
+}
+
+TEST(Bench, CountedOperationsAreTheMachinesInstructions) {
+  // Without sines, vectors and fused products each operation is one.
+  for (const char* model : {"tumbling_body", "quadrotor"})
+    for (const char* compiler : {"g++", "clang++"}) {
+      const json bench = bench_of(fmt::format("models/{}.toml", model),
+                                  {"--compiler", compiler, "--flags", "-O1 -ffp-contract=off"});
+      EXPECT_GE(bench["functions"].size(), 10u);
+      for (const json& function : bench["functions"])
+        EXPECT_EQ(function["floating_point_instructions"], function["operations"]) << compiler << function;
+    }
+}
+
+#endif
 
 TEST(Bench, NamesMachineCompilerAndOptions) {
   const support::ProcessResult result =
@@ -164,6 +218,65 @@ TEST(Bench, MistakesEndWithTheirStatus) {
   expect({model, "--compiler", " "}, 2, "--compiler is empty");
   expect({model, "--compiler", "no-such-compiler"}, 3, "cannot run 'no-such-compiler'");
   expect({model, "--flags", "-fno-such-option"}, 3, "-fno-such-option");
+}
+
+TEST(Floor, ReadsArithmeticInstructions) {
+  using commands::Arithmetic, commands::Instruction, commands::Width;
+  const auto expect = [](const char* mnemonic, const char* operands, Arithmetic arithmetic, Width width) {
+    const std::optional<Instruction> read = commands::read_instruction(mnemonic, operands);
+    ASSERT_TRUE(read) << mnemonic;
+    EXPECT_EQ(*read, (Instruction{arithmetic, width})) << mnemonic;
+  };
+  expect("addsd", "%xmm0,%xmm1", Arithmetic::kSum, Width::kOne);
+  expect("vsubss", "(%rax),%xmm0,%xmm1", Arithmetic::kSum, Width::kOne);
+  expect("vaddsubpd", "%ymm0,%ymm1,%ymm2", Arithmetic::kSum, Width::k256);
+  expect("mulpd", "0x10(%rsp),%xmm1", Arithmetic::kProduct, Width::k128);
+  expect("vfnmadd231pd", "(%rcx){1to8},%zmm1,%zmm2", Arithmetic::kProduct, Width::k512);
+  expect("vfmsub132ss", "%xmm0,%xmm1,%xmm2", Arithmetic::kProduct, Width::kOne);
+  expect("vmaxps", "%ymm0,%ymm1,%ymm2", Arithmetic::kExtreme, Width::k256);
+  expect("divsd", "%xmm0,%xmm1", Arithmetic::kQuotient, Width::kOne);
+  expect("vsqrtpd", "%zmm0,%zmm1", Arithmetic::kRoot, Width::k512);
+  for (const char* other :
+       {"movsd", "vmovapd", "add", "imul", "mul", "div", "vpaddd", "paddd", "pmulld", "ucomisd", "cvttsd2si",
+        "roundsd", "xorpd", "vunpcklpd", "vpermpd", "subq", "vpmuludq", "adds"})
+    EXPECT_FALSE(commands::read_instruction(other, "%ymm0,%ymm1")) << other;
+}
+
+TEST(Floor, IsTheTimeOfTheBusiestUnit) {
+  using commands::Arithmetic, commands::Width;
+  const std::map<std::string, double> rates = {{"sum0", 2},     {"product0", 4}, {"both0", 5},
+                                               {"sum3", 1},     {"both3", 1},    {"quotient0", 0.25},
+                                               {"root0", 0.125}};
+  const auto expect = [&](const commands::ArithmeticCounts& counts, double time) {
+    EXPECT_DOUBLE_EQ(commands::least_time(counts, rates), time);
+    for (const std::string& name : commands::issue_names(counts)) EXPECT_TRUE(rates.contains(name)) << name;
+  };
+  expect({}, 0);
+  expect({{{Arithmetic::kSum, Width::kOne}, 100}, {{Arithmetic::kProduct, Width::kOne}, 10}}, 50);
+  expect({{{Arithmetic::kSum, Width::kOne}, 100}, {{Arithmetic::kSum, Width::k512}, 10}}, 60);
+  expect({{{Arithmetic::kSum, Width::kOne}, 10}, {{Arithmetic::kProduct, Width::kOne}, 190}}, 47.5);
+  expect({{{Arithmetic::kSum, Width::kOne}, 100}, {{Arithmetic::kProduct, Width::kOne}, 190}}, 58);
+  expect({{{Arithmetic::kExtreme, Width::kOne}, 100}}, 20);
+  expect({{{Arithmetic::kQuotient, Width::kOne}, 10},
+          {{Arithmetic::kRoot, Width::kOne}, 10},
+          {{Arithmetic::kSum, Width::kOne}, 100}},
+         120);
+}
+
+TEST(Floor, StepsAreThoseOfTheFunction) {
+  using commands::Arithmetic, commands::Width;
+  const auto steps = commands::read_steps(
+      "finite step 2\nsteps step 9 11\noutside step 4\nat step 401000 2\nat step 401010 4\nat step 401014 "
+      "10\n"
+      "steps idle 0 0\noutside idle 0\n",
+      "program:     file format\n\n0000000000401000 <bench::call(int)>:\n  401000:\tmulsd  %xmm0,%xmm1\n\n"
+      "0000000000401010 <step(double)>:\n  401010:\tvaddpd %ymm0,%ymm1,%ymm2\n  401014:\tret\n",
+      "bench::");
+  ASSERT_EQ(steps.size(), 1u);
+  const commands::SteppedCalls& step = steps.at("step");
+  EXPECT_EQ(step.instructions, (std::vector<double>{8, 10}));
+  EXPECT_EQ(step.outside, 2);
+  EXPECT_EQ(step.arithmetic, (commands::ArithmeticCounts{{{Arithmetic::kSum, Width::k256}, 2}}));
 }
 
 TEST(Callgrind, AddsNothingAndMixesNoNames) {
