@@ -62,7 +62,10 @@ std::vector<std::string> remarks(const BenchReport& report) {
   std::vector<std::string> list = {
       fmt::format(
           "operations are additions, products, quotients and square roots of one call: counted in the "
-          "emitted code, exact, the same whatever the state"),
+          "emitted code, exact, the same whatever the state{}",
+          ir::has_angles(report.compiled.module)
+              ? "; a sine or cosine of what follows from time is none of them and takes several"
+              : ""),
       fmt::format(
           "times are of one call, with the call itself, in {} blocks of about {} that take turns over the "
           "functions: of the fastest block and of the middle one. They are of this machine and this minute: "

@@ -114,11 +114,6 @@ int run(CostArguments arguments) {
   if (!arguments.output.empty())
     support::check_writable(std::filesystem::absolute(arguments.output).parent_path().string());
   const std::size_t velocities = model->loaded.velocity_count();
-  if (velocities == 0) {
-    fmt::print(stderr, "error: '{}' has no degree of freedom: there are no steps\n",
-               model->loaded.options.name);
-    return kModelWrong;
-  }
   const auto conflict = [&](const std::vector<std::string>& methods) {
     return check_steps(methods, model->loaded);
   };

@@ -1,6 +1,7 @@
 #include "commands/cost_text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -95,8 +96,11 @@ std::string operations_remark(const CostReport& report, const StepCost& step) {
   return fmt::format(
       "every {0}_step does the same {1} arithmetic operations, whatever the state and however often: counted "
       "in the "
-      "emitted code, exact",
-      name_of(report, step), report.table.methods[step.method].operations);
+      "emitted code, exact{2}",
+      name_of(report, step), report.table.methods[step.method].operations,
+      ir::has_angles(report.compiled.module)
+          ? ", but that a sine or cosine of what follows from time is none of them and takes several"
+          : "");
 }
 
 std::string memory_remark(const CostReport& report) {
@@ -119,6 +123,19 @@ std::string warm_remark(const CostReport& report, const StepCost& step) {
       "99.9 % of {} warm {} steps, one after the other, took less than {}, the longest {} with whatever else "
       "the machine did meanwhile: on this machine, measured; it is no bound",
       step.warm.count, name_of(report, step), time_text(step.warm.q999), time_text(step.warm.worst));
+}
+
+/// Methods whose motion did not stay finite; empty where all did.
+std::string restart_remark(const CostReport& report) {
+  std::vector<std::string> names;
+  for (const StepCost& step : report.steps)
+    if (step.restarts > 0)
+      names.push_back(fmt::format("{} ({} times)", name_of(report, step), step.restarts));
+  if (names.empty()) return "";
+  return fmt::format(
+      "steps of this length diverged, and the motion began anew from its start: {}. Their times are of steps "
+      "that are too long, which may take other times: give a shorter --step",
+      fmt::join(names, ", "));
 }
 
 std::string cold_remark(const CostReport& report, const StepCost& step) {
@@ -176,6 +193,8 @@ std::vector<std::string> remarks(const CostReport& report) {
                                    warm_remark(report, usual), cold_remark(report, usual),
                                    faint_remark(report)};
   if (usual.thousand) list.push_back(angle_remark(report));
+  if (const std::string diverged = restart_remark(report); !diverged.empty())
+    list.insert(list.begin(), diverged);
   return list;
 }
 
@@ -230,10 +249,13 @@ Json steps_json(const CostReport& report) {
                   {"operations", method.operations},
                   {"evaluations", method.evaluations}};
     add_bytes(entry, code_of(report, entry["name"]));
-    entry["measured"] = {
-        {"warm", quantiles_json(s.warm)},          {"cold", quantiles_json(s.cold)},
-        {"subnormal_ratio", s.subnormal},          {"subnormal_flushed_ratio", optional(s.flushed)},
-        {"angle_1e3_ratio", optional(s.thousand)}, {"angle_1e6_ratio", optional(s.million)}};
+    entry["measured"] = {{"restarts", s.restarts},
+                         {"warm", quantiles_json(s.warm)},
+                         {"cold", quantiles_json(s.cold)},
+                         {"subnormal_ratio", s.subnormal},
+                         {"subnormal_flushed_ratio", optional(s.flushed)},
+                         {"angle_1e3_ratio", optional(s.thousand)},
+                         {"angle_1e6_ratio", optional(s.million)}};
     steps.push_back(std::move(entry));
   }
   return steps;

@@ -29,16 +29,18 @@ void set(Element& element, const char* name, const std::string& text) {
 /// Shortest text that reads as the same number.
 void set(Element& element, const char* name, double number) { set(element, name, fmt::format("{}", number)); }
 
+void replace_all(std::string& text, const std::string& from, const std::string& to) {
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+}
+
 /// Characters that XML does not have, and ends of lines, as blanks.
 std::string in_xml(std::string text) {
   for (char& c : text)
     if (static_cast<unsigned char>(c) < ' ') c = ' ';
+  replace_all(text, "\xEF\xBF\xBE", " ");  // U+FFFE and U+FFFF
+  replace_all(text, "\xEF\xBF\xBF", " ");
   return text;
-}
-
-void replace_all(std::string& text, const std::string& from, const std::string& to) {
-  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
-    text.replace(at, from.size(), to);
 }
 
 std::string causality(const FmuNumber& number) {

@@ -42,6 +42,9 @@ int run(const WrapArguments& arguments, bool has_method) {
   const programs::SceneFacts facts = programs::scene_facts(loaded->mechanism, loaded->plan());
   if (const std::string why = wrapper.refusal(facts); !why.empty())
     return refuse_arguments(fmt::format("{} is not given rates {}", wrapper.tool, why));
+  if (loaded->options.name == wrapper.header)
+    return refuse_arguments(fmt::format("{0}.h is the header of {1}: choose another name with --name",
+                                        wrapper.header, wrapper.tool));
   EmissionArguments emission;
   emission.functions = wrapper.functions;
   if (wrapper.steps) emission.functions.push_back(arguments.method + "_step");

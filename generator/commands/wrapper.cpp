@@ -9,6 +9,7 @@
 #include "emit/file_text.hpp"
 #include "emit/layout.hpp"
 #include "emit/templates.hpp"
+#include "support/check.hpp"
 
 namespace jourdain::commands {
 
@@ -83,13 +84,14 @@ std::string casadi_text(const CompileOptions& options, const CompiledModel& comp
                     np = scene.parameters.size(), no = scene.output_numbers();
   const auto passages = emit::passages("casadi.c.in");
   std::map<std::string, std::string> holes = common_holes(options, scene, title);
-  std::string results;
-  int result = 1;
-  if (nu > 0) results += fmt::format("  results[{}] = B;\n", result++);
-  if (no > 0) results += fmt::format("  results[{}] = rest;\n", result++);
-  if (no > 0 && nu > 0) results += fmt::format("  results[{}] = rest + {};\n", result, no * nx);
-  holes["RESULTS"] = results + (no > 0 ? "" : "  (void)rest;\n");
-  holes["REST"] = fmt::format("{}", no * (nx + nu));
+  const auto linearize =
+      std::find_if(compiled.functions.begin(), compiled.functions.end(),
+                   [](const auto& function) { return function.id == ir::FunctionId::kLinearize; });
+  JD_CHECK(linearize != compiled.functions.end(), "no linearize");
+  holes["RESULT_COUNT"] = fmt::format(
+      "{}", std::count_if(linearize->arrays.begin(), linearize->arrays.end(),
+                          [&](const auto& array) { return programs::has_entries(scene, array); }));
+  holes["REST"] = fmt::format("{}", std::max(no, std::size_t{1}) * std::max(nx, nu));
   holes["LINEARIZE"] = fmt::format("{}", function_index(compiled, ir::FunctionId::kLinearize).value());
   const Matrix x = {"x", nx}, u = {"u", nu}, p = {"p", np}, xdot = {"xdot", nx};
   const std::string n = options.name;
@@ -137,12 +139,14 @@ const std::vector<Wrapper>& wrappers() {
       {"casadi",
        "casadi",
        {"initial_state", "position_rate", "forward_dynamics", "linearize"},
+       "",
        false,
        needs_plain_rates,
        casadi_text},
       {"simulink",
        "sfunction",
        {"initial_state", "outputs", "close_loops", "project"},
+       "simstruc",
        true,
        takes_everything,
        simulink_text}};

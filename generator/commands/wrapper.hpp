@@ -13,6 +13,7 @@ struct Wrapper {
   std::string tool;                    ///< on the command line
   std::string suffix;                  ///< of the file: NAME_suffix.c
   std::vector<std::string> functions;  ///< that it calls, and those of steps behind their method
+  std::string header;                  ///< of the tool, whose name no model may have; or empty
   bool steps = false;                  ///< by a stepper
   /// Why the tool cannot have the scene; empty where it can.
   std::string (*refusal)(const programs::SceneFacts&) = nullptr;

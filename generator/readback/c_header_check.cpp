@@ -33,9 +33,10 @@ class CHeaderCheck {
     const std::string file = prefix_.substr(0, prefix_.size() - 1);
     std::string guard = prefix_ + "H";
     for (char& c : guard) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    const std::vector<Texts> wanted = {{"#ifndef " + guard, "#define " + guard, "#ifdef __cplusplus",
-                                        "#endif", "#ifdef __cplusplus", "#endif", "#endif"},
-                                       {"#include \"" + file + ".h\"", "#include <math.h>"}};
+    std::vector<Texts> wanted = {{"#ifndef " + guard, "#define " + guard, "#ifdef __cplusplus", "#endif",
+                                  "#ifdef __cplusplus", "#endif", "#endif"},
+                                 {std::begin(kNarrowVectors), std::end(kNarrowVectors)}};
+    wanted[1].insert(wanted[1].end(), {"#include \"" + file + ".h\"", "#include <math.h>"});
     for (std::size_t i = 0; i < wanted.size(); ++i)
       findings_.expect("directives of " + unit_.files[i],
                        fmt::format("{}", fmt::join(unit_.directives[i], "; ")),

@@ -11,6 +11,11 @@
 
 namespace jourdain::readback {
 
+/// In front of every source: GCC packs neighbouring numbers into vectors of 256 bits, no wider ones.
+inline constexpr const char* kNarrowVectors[] = {
+    "#if defined(__GNUC__) && !defined(__clang__) && __GNUC__ > 7 && defined(__AVX512F__)",
+    "#pragma GCC target(\"prefer-vector-width=256\")", "#endif"};
+
 /// Files, members, sizes, defaults, limits, names.
 void check_structs(const Unit& unit, const Expected& expected, Findings& findings);
 

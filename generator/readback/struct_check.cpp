@@ -144,7 +144,8 @@ void check_files(const Unit& unit, const Expected& expected, Findings& findings)
   std::vector<Texts> wanted = {
       {"#pragma once", "#ifndef JOURDAIN_FUNCTION", "#define JOURDAIN_FUNCTION", "#endif"},
       {"#pragma once", "#include <math.h>", fmt::format("#include \"{}.hpp\"", expected.name)},
-      {fmt::format("#include \"{}_kernels.hpp\"", expected.name)}};
+      {std::begin(kNarrowVectors), std::end(kNarrowVectors)}};
+  wanted[2].push_back(fmt::format("#include \"{}_kernels.hpp\"", expected.name));
   if (!expected.user_functions().empty())
     wanted[2].push_back(fmt::format("#include \"{}_functions.hpp\"", expected.name));
   findings.expect("namespace", unit.name_of_namespace, expected.name);

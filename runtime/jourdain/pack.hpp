@@ -33,6 +33,13 @@ inline constexpr std::size_t natural_lanes =
 #endif
     / sizeof(Real);
 
+// Clang takes vectors of 512 bits in halves in functions whose arguments are no such vectors.
+#if defined(__clang__) && defined(__AVX512F__)
+#define JOURDAIN_PACK_FUNCTION __attribute__((always_inline, min_vector_width(512)))
+#else
+#define JOURDAIN_PACK_FUNCTION __attribute__((always_inline))
+#endif
+
 namespace detail {
 
 template <class T, std::size_t count>
@@ -184,8 +191,8 @@ namespace detail {
 
 /// Sine and cosine of |x| in a quadrant, of what is left of it: exchanged and with the signs that they have there.
 template <class I, class V>
-__attribute__((always_inline)) inline void turn(const I& sine_bits, const I& cosine_bits, const I& n,
-                                                const I& sign, V& s, V& c) noexcept {
+JOURDAIN_PACK_FUNCTION inline void turn(const I& sine_bits, const I& cosine_bits, const I& n, const I& sign,
+                                        V& s, V& c) noexcept {
   const std::uint64_t one = 1, zero = 0;
   const I exchange = (sine_bits ^ cosine_bits) & (zero - (n & one));
   s = (V)(sine_bits ^ exchange ^ sign ^ ((n << 62) & (one << 63)));
@@ -196,8 +203,8 @@ __attribute__((always_inline)) inline void turn(const I& sine_bits, const I& cos
 
 /// As the emitted functions do it for double and float (see there for the sources of the numbers).
 template <class Real, std::size_t lanes>
-__attribute__((always_inline)) inline void Pack<Real, lanes>::arctangents(const Vector& y, const Vector& x,
-                                                                          Vector& result) noexcept {
+JOURDAIN_PACK_FUNCTION inline void Pack<Real, lanes>::arctangents(const Vector& y, const Vector& x,
+                                                                  Vector& result) noexcept {
 #if defined(__clang__)
 #pragma clang fp reassociate(off)
 #endif
@@ -242,9 +249,8 @@ __attribute__((always_inline)) inline void Pack<Real, lanes>::arctangents(const 
 
 /// By the C library where a lane is out of range.
 template <class Real, std::size_t lanes>
-__attribute__((always_inline)) inline void Pack<Real, lanes>::call_library(const Vector& x,
-                                                                           const BitVector& in_range,
-                                                                           Vector& s, Vector& c) noexcept {
+JOURDAIN_PACK_FUNCTION inline void Pack<Real, lanes>::call_library(const Vector& x, const BitVector& in_range,
+                                                                   Vector& s, Vector& c) noexcept {
   Bits all = ~Bits{0};
   for (std::size_t i = 0; i < lanes; ++i) all &= in_range[i];
   if (__builtin_expect(all == 0, 0))
@@ -258,8 +264,8 @@ __attribute__((always_inline)) inline void Pack<Real, lanes>::call_library(const
 /// Up to 2^30 as the emitted functions for double do it (see there for its sources); beyond, and for what is no number,
 /// by the C library.
 template <class Real, std::size_t lanes>
-__attribute__((always_inline)) inline void Pack<Real, lanes>::sines_of_doubles(const Vector& x, Vector& s,
-                                                                               Vector& c) noexcept {
+JOURDAIN_PACK_FUNCTION inline void Pack<Real, lanes>::sines_of_doubles(const Vector& x, Vector& s,
+                                                                       Vector& c) noexcept {
 #if defined(__clang__)
 #pragma clang fp reassociate(off)
 #endif
@@ -289,8 +295,8 @@ __attribute__((always_inline)) inline void Pack<Real, lanes>::sines_of_doubles(c
 /// Up to 2^30 in double, with pi/2 in parts whose products with n are exact but for the last, and with polynomials that
 /// are good to 2^-33 (Remez exchange); beyond, and for what is no number, by the C library.
 template <class Real, std::size_t lanes>
-__attribute__((always_inline)) inline void Pack<Real, lanes>::sines_of_floats(const Vector& x, Vector& s,
-                                                                              Vector& c) noexcept {
+JOURDAIN_PACK_FUNCTION inline void Pack<Real, lanes>::sines_of_floats(const Vector& x, Vector& s,
+                                                                      Vector& c) noexcept {
 #if defined(__clang__)
 #pragma clang fp reassociate(off)
 #endif

@@ -132,11 +132,14 @@ struct Measured {
   Stepping stepping;
   double overhead = 0;
   std::vector<double> warm, cold;
+  long restarts = 0;
 };
 
 void step_warm(Measured& m, long count) {
   for (long i = 0; i < count; ++i) {
-    if (m.warm.size() % kRun == 0 || !m.stepping.finite()) m.stepping.rewind();
+    const bool diverged = !m.stepping.finite();
+    if (diverged) ++m.restarts;
+    if (diverged || m.warm.size() % kRun == 0) m.stepping.rewind();
     m.warm.push_back(net(m.stepping.step(), m.overhead));
   }
 }
@@ -260,7 +263,7 @@ std::vector<StepCost> measure_step_costs(const Flow<double>& flow, const std::ve
   std::vector<Measured> all;
   const auto count = static_cast<std::size_t>(flow.table().method_count);
   for (std::size_t m = 0; m < count; ++m) {
-    all.push_back({Stepping(flow, m, options.h), 0, {}, {}});
+    all.push_back({Stepping(flow, m, options.h), 0, {}, {}, 0});
     all.back().overhead = call_time(all.back().stepping);
   }
   for (long done = 0; done < options.warm; done += kBlock) {
@@ -278,6 +281,7 @@ std::vector<StepCost> measure_step_costs(const Flow<double>& flow, const std::ve
     StepCost& cost = costs.emplace_back();
     cost.method = m;
     cost.warm = quantiles_of(std::move(all[m].warm));
+    cost.restarts = all[m].restarts;
     cost.cold = quantiles_of(std::move(all[m].cold));
     compare_states(all[m].stepping, flow, angular, cost);
   }

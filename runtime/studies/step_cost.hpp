@@ -20,7 +20,8 @@ Quantiles quantiles_of(std::vector<double> samples);
 
 struct StepCost {
   std::size_t method = 0;
-  Quantiles warm;  ///< one after the other along the motion
+  Quantiles warm;     ///< one after the other along the motion
+  long restarts = 0;  ///< of warm steps: the motion began anew, as numbers were no longer finite
   Quantiles cold;  ///< each after data of twice the last cache's size, at most 384 MiB, was read and written
   /// Medians of steps from changed states over that from a state along the motion. Velocities whose products
   /// are subnormal:

@@ -304,6 +304,20 @@ void expect_independence(const jourdain_interface& table, void* self) {
   set(start);
 }
 
+/// Whether its results depend on it or not.
+void expect_given_is_looked_at(const jourdain_interface& table, int k, void* self, double wrong) {
+  const jourdain_function& function = table.functions[k];
+  std::vector<std::vector<double>> given, results;
+  std::vector<const double*> from;
+  std::vector<double*> to;
+  const auto count = [](const jourdain_argument& array) { return size(array.rows * array.columns); };
+  for (int i = 0; i < function.given_count; ++i) given.emplace_back(count(function.given[i]), wrong);
+  for (int i = 0; i < function.result_count; ++i) results.emplace_back(count(function.results[i]), 0.0);
+  for (const std::vector<double>& numbers : given) from.push_back(numbers.data());
+  for (std::vector<double>& numbers : results) to.push_back(numbers.data());
+  EXPECT_EQ(function.call(self, from.data(), to.data()), JOURDAIN_NOT_FINITE) << function.name;
+}
+
 void expect_misuse_is_refused(const jourdain_interface& table, void* self) {
   std::vector<std::max_align_t> memory(table.size / sizeof(std::max_align_t) + 2);
   EXPECT_FALSE(table.create(nullptr, table.size));
@@ -317,24 +331,35 @@ void expect_misuse_is_refused(const jourdain_interface& table, void* self) {
   EXPECT_EQ(table.set_parameters(nullptr, values.p.data()), JOURDAIN_WRONG_CALL);
   EXPECT_EQ(table.reset(nullptr), JOURDAIN_WRONG_CALL);
   EXPECT_EQ(table.loops_closed(nullptr), 0);
-  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double nan = std::numeric_limits<double>::quiet_NaN(),
+               too_large = table.real_bytes == 4 ? 1e300 : std::numeric_limits<double>::infinity();
   for (const auto& [count, numbers, setter] :
        {std::tuple(table.parameter_count, &values.p, table.set_parameters),
         {table.input_count, &values.u, table.set_inputs}}) {
     if (count == 0) continue;
     EXPECT_EQ(setter(self, nullptr), JOURDAIN_WRONG_CALL);
     const double kept = (*numbers)[0];
-    (*numbers)[0] = nan;
-    EXPECT_EQ(setter(self, numbers->data()), JOURDAIN_NOT_FINITE);
+    for (const double wrong : {nan, too_large}) {
+      (*numbers)[0] = wrong;
+      EXPECT_EQ(setter(self, numbers->data()), JOURDAIN_NOT_FINITE) << wrong;
+    }
     (*numbers)[0] = kept;
   }
   EXPECT_EQ(values_of(table, self).p, values.p);
-  EXPECT_EQ(table.set_state(self, nan, values.y.data(), values.z.data()), JOURDAIN_NOT_FINITE);
+  const double start = values.t;
+  EXPECT_EQ(table.set_state(self, 5, values.y.data(), values.z.data()), JOURDAIN_OK);
+  const bool has_time = values_of(table, self).t > 0;
+  for (const double wrong : {nan, too_large})
+    EXPECT_EQ(table.set_state(self, wrong, values.y.data(), values.z.data()),
+              has_time ? JOURDAIN_NOT_FINITE : JOURDAIN_OK);
+  EXPECT_EQ(table.set_state(self, start, values.y.data(), values.z.data()), JOURDAIN_OK);
   if (table.position_count > 0) {
     EXPECT_EQ(table.set_state(self, 0, nullptr, values.z.data()), JOURDAIN_WRONG_CALL);
     const double kept = values.y[0];
-    values.y[0] = nan;
-    EXPECT_EQ(table.set_state(self, 0, values.y.data(), values.z.data()), JOURDAIN_NOT_FINITE);
+    for (const double wrong : {nan, too_large}) {
+      values.y[0] = wrong;
+      EXPECT_EQ(table.set_state(self, 0, values.y.data(), values.z.data()), JOURDAIN_NOT_FINITE) << wrong;
+    }
     values.y[0] = kept;
     EXPECT_EQ(values_of(table, self).y, values.y);
   }
@@ -344,11 +369,16 @@ void expect_misuse_is_refused(const jourdain_interface& table, void* self) {
       EXPECT_EQ(table.functions[k].call(self, nullptr, nullptr), JOURDAIN_WRONG_CALL)
           << table.functions[k].name;
     }
+    if (table.functions[k].given_count > 0) expect_given_is_looked_at(table, k, self, too_large);
   }
   for (int k = 0; k < table.stepper_count; ++k) {
     EXPECT_EQ(table.steppers[k].step(nullptr, 1e-3, 1), JOURDAIN_WRONG_CALL);
     EXPECT_EQ(table.steppers[k].step(self, 1e-3, -1), JOURDAIN_WRONG_CALL);
     EXPECT_EQ(table.steppers[k].step(self, nan, 1), JOURDAIN_NOT_FINITE);
+    if (has_time) {
+      EXPECT_NE(table.steppers[k].step(self, 1e308, 5), JOURDAIN_OK) << table.steppers[k].name;
+      EXPECT_EQ(table.set_state(self, start, values.y.data(), values.z.data()), JOURDAIN_OK);
+    }
   }
 }
 

@@ -48,9 +48,12 @@ template <class Integer>
 class Library {
  public:
   Library(const std::string& model, const std::string& compiler, const std::vector<std::string>& flags)
+      : Library(model, model_file(model), compiler, flags) {}
+  Library(const std::string& model, const std::string& file, const std::string& compiler,
+          const std::vector<std::string>& flags)
       : name_(model) {
     const std::string path = folder_.path() + "/" + model;
-    const ProcessResult made = wrap(model_file(model), "casadi", folder_.path());
+    const ProcessResult made = wrap(file, "casadi", folder_.path());
     EXPECT_EQ(made.status, 0) << made.output;
     std::vector<std::string> arguments = {
         "-O1", "-fPIC",      "-shared", path + ".c", path + "_interface.c", path + "_casadi.c",
@@ -186,6 +189,47 @@ TEST(Wrap, CasadiGetsRatesOfStates) {
   expect_consistent(Library<long long>("servo_arm", "gcc", {}), 5, 1, 1);
 }
 
+/// Their derivatives by time are one more result, which casadi has no use for.
+TEST(Wrap, CasadiTakesOutputsOfTime) {
+  const support::TemporaryFolder folder;
+  const std::string file = folder.path() + "/follower.toml", model = R"toml([model]
+name = "follower"
+[[body]]
+name = "cart"
+mass = 2
+[[joint]]
+name = "slide"
+type = "prismatic"
+parent = "world"
+child = "cart"
+axis = [1, 0, 0]
+INPUT[[force]]
+joint = "slide"
+value = "-3*slide^3"
+[[output]]
+name = "error"
+kind = "expression"
+value = "slide - sin(2*t)"
+)toml",
+                    input = "[[actuator]]\nname = \"push\"\njoint = \"slide\"\n";
+  for (const bool has_input : {true, false}) {
+    std::string text = model;
+    support::write_file(file, text.replace(text.find("INPUT"), 5, has_input ? input : ""));
+    expect_consistent(Library<long long>("follower", file, "gcc",
+                                         {"-g", "-fsanitize=undefined", "-fno-sanitize-recover=all",
+                                          "-fstack-protector-all"}),
+                      2, has_input ? 1 : 0, 1);
+  }
+}
+
+TEST(Wrap, NoModelHidesTheToolsHeader) {
+  const support::TemporaryFolder folder;
+  const ProcessResult made =
+      wrap(model_file("pendulum"), "simulink", folder.path() + "/none", {"--name", "simstruc"});
+  EXPECT_EQ(made.status, 2);
+  EXPECT_THAT(made.output, HasSubstr("simstruc.h is the header of simulink"));
+}
+
 TEST(Wrap, CasadiIsRefusedWhatItCannotHave) {
   const support::TemporaryFolder folder;
   for (const auto& [model, words] : {std::pair("squeezer", "closed loops"),
@@ -214,14 +258,14 @@ ProcessResult run_block(const std::string& model, const std::string& method,
   return support::run_process(command);
 }
 
-/// The last row of what the command simulates, without time.
+/// The last row of what the command simulates with inputs as block.c has them, one at most; without time.
 Numbers simulated(const std::string& model, const std::string& method, const std::string& duration,
                   const std::string& step, std::size_t count) {
   const ProcessResult result = run_script(
-      kSource,
-      fmt::format(
-          "'{}' simulate models/{}.toml --duration {} --step {} --every 1 --method {} --output - 2>/dev/null",
-          JOURDAIN_BINARY, model, duration, step, method));
+      kSource, fmt::format("'{}' simulate models/{}.toml {} --duration {} --step {} --every 1 --method {} "
+                           "--output - 2>/dev/null",
+                           JOURDAIN_BINARY, model, model == "cart_pole" ? "--constant-input 0.1" : "",
+                           duration, step, method));
   std::istringstream rows(result.output);
   std::string row, last;
   while (std::getline(rows, row)) last = row;
@@ -235,7 +279,9 @@ Numbers simulated(const std::string& model, const std::string& method, const std
 TEST(Wrap, SimulinkStepsAsTheCommandDoes) {
   for (const auto& [model, method, step, duration, size] :
        {std::tuple("squeezer", "rk4", "1e-5", "1e-3", 8u),
-        {"shaking_cart", "adams_bashforth2", "1e-3", "0.1", 2u}}) {
+        {"shaking_cart", "adams_bashforth2", "1e-3", "0.1", 2u},
+        {"cart_pole", "adams_bashforth2", "1e-3", "0.1", 4u},
+        {"cart_pole", "linearly_implicit_euler", "1e-3", "0.1", 4u}}) {
     const ProcessResult ran = run_block(model, method, {"100", step});
     ASSERT_EQ(ran.status, 0) << ran.output;
     std::istringstream ports(ran.output);
@@ -253,8 +299,10 @@ TEST(Wrap, SimulinkIsToldWhatGoesWrong) {
   EXPECT_EQ(run_block("quadrotor", "rk4", {"10", "1e-3"}).status, 0);
   EXPECT_EQ(run_block("quadrotor", "rk4", {"10", "1e-3", "0.1"}).status, 0);
   const ProcessResult no_step = run_block("quadrotor", "rk4", {"10", "0"});
-  EXPECT_THAT(no_step.output, HasSubstr("the length of a step has to be positive"));
+  EXPECT_THAT(no_step.output, HasSubstr("the length of a step has to be one positive number"));
   EXPECT_EQ(no_step.status, 3);
+  for (const char* length : {"inf", "nan", "-1"})
+    EXPECT_EQ(run_block("quadrotor", "rk4", {"10", length}).status, 3) << length;
   EXPECT_THAT(run_block("quadrotor", "rk4", {"10", "1e-3", "1", "2"}).output,
               HasSubstr("the model has 1 parameters"));
   EXPECT_THAT(run_block("quadrotor", "rk4", {"10", "1e-3", "nan"}).output, HasSubstr("is not finite"));

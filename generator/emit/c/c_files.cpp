@@ -98,6 +98,7 @@ class CEmitter {
         {"NAMES", c_name_arrays(names(), scene_, false)},
         {"LIMITS", c_limits(names(), model_, false)},
         {"DECLARATIONS", declarations()},
+        {"NARROW_VECTORS", std::string(template_text("narrow_vectors.in"))},
         {"SOURCE", c_name_arrays(names(), scene_, true) + "\n" + c_limits(names(), model_, true) + source()}};
     return {{names().file() + ".h", fill(template_text("model.h.in"), holes)},
             {names().file() + ".c", fill(template_text("source.c.in"), holes)}};

@@ -181,8 +181,10 @@ class Interface {
 
   std::string state_functions() const {
     const bool has_ranges = !scene_.constraints.empty() && !model_.proven.positions.empty();
-    std::map<std::string, std::string> holes = {{"GIVEN_FINITE", "numbers_are_finite(&t, 1)"},
-                                                {"FINITE", "1"}};
+    std::map<std::string, std::string> holes = {
+        {"GIVEN_FINITE", scene_.clock ? "numbers_are_finite(&t, 1)" : "1"},
+        {"FINITE", scene_.clock ? "reals_are_finite(&self->state.t.high, 1)" : "1"},
+        {"UNUSED", scene_.clock ? "" : "  (void)t;\n"}};
     holes["GET"] =
         scene_.clock ? "  *t = (double)self->state.t.high + (double)self->state.t.low;\n" : "  *t = 0.0;\n";
     holes["SET"] = scene_.clock ? fmt::format(
@@ -203,7 +205,6 @@ class Interface {
       holes["GIVEN_FINITE"] += fmt::format(" && numbers_are_finite({}, {})", name, count);
       holes["FINITE"] += fmt::format(" && reals_are_finite(self->state.{}, {})", name, count);
     };
-    holes["UNUSED"] = "";
     add("y", scene_.positions.size());
     add("z", scene_.velocities.size());
     if (!scene_.constraints.empty())

@@ -124,7 +124,10 @@ std::string InterfaceCalls::call(const FunctionInfo& function) const {
   if (!list.empty()) wrong += fmt::format(" || is_missing((const double *const *)results, {})", list.size());
   text += fmt::format("  if ({}) return JOURDAIN_WRONG_CALL;\n", wrong);
   if (function.takes_acceleration)
-    text += fmt::format("  read_numbers(zdot, given[0], {});\n", scene_.velocities.size());
+    text += fmt::format(
+        "  if (!numbers_are_finite(given[0], {0})) return JOURDAIN_NOT_FINITE;\n"
+        "  read_numbers(zdot, given[0], {0});\n",
+        scene_.velocities.size());
   else
     text += "  (void)given;\n";
   if (list.empty()) text += "  (void)results;\n";

@@ -81,6 +81,7 @@ class Emitter {
         {"OUTPUTS_ALIAS", alias(!scene_.outputs.empty(), "Outputs")},
         {"LINEARIZATION", linearization_struct(functions_, scene_)},
         {"LINEARIZATION_ALIAS", alias(linearizes(functions_), "Linearization")},
+        {"NARROW_VECTORS", if_any(true, "narrow_vectors.in")},
         {"USER_FUNCTIONS", user_functions(model_.name, called_)},
         {"USER_FUNCTIONS_ALIAS", alias(!called_.empty(), "Functions")},
         {"USER_FUNCTIONS_FILE",
