@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <regex>
 #include <set>
 
 #include "support/check.hpp"
@@ -99,21 +98,32 @@ class KernelText {
 }  // namespace
 
 std::optional<Instruction> read_instruction(const std::string& mnemonic, const std::string& operands) {
-  static const std::regex kPattern(
-      "v?(?:(add|sub|addsub)|(mul|fn?m(?:add|sub|addsub|subadd)(?:132|213|231)?)|(min|max)|(div)|(sqrt))([sp]"
-      ")[sd]");
-  std::smatch match;
-  if (!std::regex_match(mnemonic, match, kPattern)) return {};
-  int kind = 0;
-  while (!match[static_cast<std::size_t>(kind) + 1].matched) ++kind;
+  static const std::map<std::string, Arithmetic> kStems = {
+      {"add", Arithmetic::kSum},          {"sub", Arithmetic::kSum},
+      {"addsub", Arithmetic::kSum},       {"mul", Arithmetic::kProduct},
+      {"fmadd", Arithmetic::kProduct},    {"fmsub", Arithmetic::kProduct},
+      {"fnmadd", Arithmetic::kProduct},   {"fnmsub", Arithmetic::kProduct},
+      {"fmaddsub", Arithmetic::kProduct}, {"fmsubadd", Arithmetic::kProduct},
+      {"min", Arithmetic::kExtreme},      {"max", Arithmetic::kExtreme},
+      {"div", Arithmetic::kQuotient},     {"sqrt", Arithmetic::kRoot}};
+  // "vfmadd231pd": a stem, of fused ones the order of operands, one number or several, double or float.
+  std::string stem = mnemonic.substr(mnemonic.starts_with('v') ? 1 : 0);
+  if (stem.size() < 3) return {};
+  const char count = stem[stem.size() - 2], type = stem.back();
+  if ((count != 's' && count != 'p') || (type != 's' && type != 'd')) return {};
+  stem.resize(stem.size() - 2);
+  for (const char* order : {"132", "213", "231"})
+    if (stem.starts_with('f') && stem.ends_with(order)) stem.resize(stem.size() - 3);
+  const auto found = kStems.find(stem);
+  if (found == kStems.end()) return {};
   Width width = Width::k128;
-  if (match[6] == "s")
+  if (count == 's')
     width = Width::kOne;
   else if (operands.find("%zmm") != std::string::npos)
     width = Width::k512;
   else if (operands.find("%ymm") != std::string::npos)
     width = Width::k256;
-  return Instruction{static_cast<Arithmetic>(kind), width};
+  return Instruction{found->second, width};
 }
 
 IssueKernels issue_kernels(bool is_float) {

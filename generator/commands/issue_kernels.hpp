@@ -25,7 +25,7 @@ enum class Width { kOne, k128, k256, k512 };
 struct Instruction {
   Arithmetic arithmetic;
   Width width;
-  friend auto operator<=>(const Instruction&, const Instruction&) = default;
+  friend auto operator<=>(const Instruction&, const Instruction&) = default;  // NOLINT(modernize-use-nullptr)
 };
 
 /// By kind, of a call.

@@ -70,7 +70,7 @@ std::map<std::string, SteppedCalls> read_steps(const std::string& output, const 
     return std::all_of(counts.begin(), counts.end(), [](double count) { return count <= 0; });
   });
   for (auto& [name, stepped] : functions) {
-    const double calls = static_cast<double>(stepped.instructions.size());
+    const auto calls = static_cast<double>(stepped.instructions.size());
     for (double& count : stepped.instructions) count -= own_instructions[name] / calls;
     for (auto& [instruction, count] : stepped.arithmetic) count /= calls;
     stepped.outside /= calls;
