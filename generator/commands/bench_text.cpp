@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "emit/body.hpp"
 #include "emit/operations.hpp"
 #include "report/text_table.hpp"
 #include "studies/report.hpp"
@@ -63,7 +64,7 @@ std::vector<std::string> remarks(const BenchReport& report) {
       fmt::format(
           "operations are additions, products, quotients and square roots of one call: counted in the "
           "emitted code, exact, the same whatever the state{}",
-          ir::has_angles(report.compiled.module)
+          emit::any_turns_with_time(report.compiled.module)
               ? "; a sine or cosine of what follows from time is none of them and takes several"
               : ""),
       fmt::format(

@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "emit/body.hpp"
+
 namespace jourdain::commands {
 
 namespace {
@@ -98,7 +100,7 @@ std::string operations_remark(const CostReport& report, const StepCost& step) {
       "in the "
       "emitted code, exact{2}",
       name_of(report, step), report.table.methods[step.method].operations,
-      ir::has_angles(report.compiled.module)
+      emit::any_turns_with_time(report.compiled.module)
           ? ", but that a sine or cosine of what follows from time is none of them and takes several"
           : "");
 }

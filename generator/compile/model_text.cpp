@@ -40,7 +40,7 @@ std::vector<std::string> assumptions(const model::Mechanism& mechanism, const Co
           "forward_dynamics go with others (--no-lanes: one after the other)",
           passes::saved_by_lanes(program), ir::count_operations(program).arithmetic()));
   if (compiled.facts.clock) list.push_back("time is a sum of three numbers, which 7 additions move");
-  if (std::any_of(compiled.module.functions.begin(), compiled.module.functions.end(), emit::turns_with_time))
+  if (emit::any_turns_with_time(compiled.module))
     list.push_back(
         "angles that follow from time are sums of two numbers, so that the phase stays right: operation "
         "counts hold "

@@ -338,6 +338,10 @@ bool turns_with_time(const Program& program) {
   return std::find(is_angle.begin(), is_angle.end(), true) != is_angle.end();
 }
 
+bool any_turns_with_time(const ir::Module& module) {
+  return std::any_of(module.functions.begin(), module.functions.end(), turns_with_time);
+}
+
 Body body_of(const Program& program, Names names, const LeafPlace& leaf, const ResultStatement& result,
              const StoredValues& stored, const Lengths& lengths) {
   return BodyBuilder(program, std::move(names), leaf, result, stored).build(lengths);

@@ -9,6 +9,7 @@
 #include "emit/parts.hpp"
 #include "emit/tree.hpp"
 #include "emit/unique_names.hpp"
+#include "ir/module.hpp"
 
 namespace jourdain::emit {
 
@@ -35,5 +36,7 @@ Body body_of(const ir::Program& program, Names names, const LeafPlace& leaf, con
 /// Does a sine or cosine depend on time? Such angles are computed as angles; a value that passes from
 /// part to part is rounded.
 bool turns_with_time(const ir::Program& program);
+/// Has any of the module's functions one?
+bool any_turns_with_time(const ir::Module& module);
 
 }  // namespace jourdain::emit

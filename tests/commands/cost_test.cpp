@@ -191,6 +191,38 @@ TEST(Cost, SaysInSentencesWhatTheNumbersMean) {
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 112u) << line;
 }
 
+TEST(Cost, SaysWhereStepsDiverge) {
+  const auto told = [](const std::string& step) {
+    const support::ProcessResult result = jourdain({"cost", "models/flyball_governor.toml", "--methods",
+                                                    "rk4", "--warm", "1000", "--cold", "1", "--step", step});
+    EXPECT_EQ(result.status, 0) << result.output;
+    return result.output.find("steps of this length diverged") != std::string::npos;
+  };
+  EXPECT_TRUE(told("1e-3"));
+  EXPECT_FALSE(told("1e-5"));
+}
+
+TEST(Cost, SaysWhatIsNotCountedOfAnglesOfTime) {
+  for (const auto& [model, counted] : {std::pair("pendulum", true), {"crane", false}}) {
+    const support::ProcessResult result = jourdain(
+        {"cost", fmt::format("models/{}.toml", model), "--methods", "rk4", "--warm", "200", "--cold", "1"});
+    ASSERT_EQ(result.status, 0) << result.output;
+    EXPECT_EQ(result.output.find("of what follows from time") == std::string::npos, counted) << model;
+  }
+}
+
+TEST(Cost, TakesWhatMovesAsPrescribedAlone) {
+  const support::TemporaryFolder folder;
+  const std::string file = folder.path() + "/turntable.toml";
+  support::write_file(file,
+                      "[model]\nname = \"turntable\"\n[[body]]\nname = \"disc\"\nmass = 1\n"
+                      "center_of_mass = [0.1, 0, 0]\n[[joint]]\nname = \"j\"\ntype = \"revolute\"\n"
+                      "parent = \"world\"\nchild = \"disc\"\naxis = [0, 0, 1]\nmotion = \"sin(3*t)\"\n"
+                      "[[output]]\nname = \"drive\"\nkind = \"drive\"\njoint = \"j\"\n");
+  const json cost = cost_of(file, "double", {}, {"--methods", "rk4"});
+  EXPECT_GT(entry_of(cost["steps"], "rk4_step")["operations"], 0);
+}
+
 TEST(Progress, ShowsOnATerminalFromTheFirstWordOn) {
   // Deriving the pendulum takes no time, and nothing is said after it before the next part begins.
   const std::string command = fmt::format("{} cost {}/models/pendulum.toml --methods rk4 --warm 100 --cold 1",
