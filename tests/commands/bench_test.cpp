@@ -156,7 +156,8 @@ TEST(Bench, SingleStepsCountWhatCallgrindCounts) {
   const support::TemporaryFolder folder;
   write_useless_valgrind(folder);
   const auto expect_same = [&](const std::string& model, const char* real) {
-    const std::vector<std::string> options = {"--real", real};
+    const std::vector<std::string> options = {"--real", real, "--functions",
+                                              "mass_matrix,forward_dynamics,inverse_dynamics,rk4_step"};
     const json counted = bench_of(model, options), stepped = bench_of(model, options, folder.path());
     ASSERT_NE(counted["instructions_by"], stepped["instructions_by"]);
     ASSERT_EQ(counted["functions"].size(), stepped["functions"].size());
@@ -168,7 +169,7 @@ TEST(Bench, SingleStepsCountWhatCallgrindCounts) {
       EXPECT_EQ(one["instructions"], other["instructions"]) << model << ' ' << real << ' ' << one["name"];
       ++compared;
     }
-    EXPECT_GT(compared, 5) << model;
+    EXPECT_GT(compared, 2) << model;
   };
   expect_same("models/ur5.toml", "double");
   expect_same("models/n_four_bar.toml", "float");
