@@ -69,18 +69,10 @@ std::string driver(const LoadedMechanism& loaded, const CompiledModel& compiled,
 }
 
 std::string processor_text(const LoadedMechanism& loaded, const BenchChoices& choices) {
-  // Numbers that stay ordinary however often they are multiplied; enough for the widest register.
-  constexpr const char *kStart = "1.7123456789, ", *kFactor = "1.0001234567891, ";
-  std::string start, factor;
-  for (int i = 0; i < (choices.is_float ? 16 : 8); ++i) {
-    start += kStart;
-    factor += kFactor;
-  }
   const IssueKernels kernels = issue_kernels(choices.is_float);
   return emit::fill(emit::template_text("bench_processor.hpp.in"), {{"NAME", loaded.options.name},
                                                                     {"REAL", type_of(choices)},
-                                                                    {"START", start},
-                                                                    {"FACTOR", factor},
+                                                                    {"NUMBERS", kernels.numbers},
                                                                     {"ISSUE", kernels.functions},
                                                                     {"ISSUES", kernels.table}});
 }

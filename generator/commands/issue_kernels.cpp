@@ -97,7 +97,8 @@ class KernelText {
 
 }  // namespace
 
-std::optional<Instruction> read_instruction(const std::string& mnemonic, const std::string& operands) {
+std::optional<ArithmeticInstruction> read_instruction(const std::string& mnemonic,
+                                                      const std::string& operands) {
   static const std::map<std::string, Arithmetic> kStems = {
       {"add", Arithmetic::kSum},          {"sub", Arithmetic::kSum},
       {"addsub", Arithmetic::kSum},       {"mul", Arithmetic::kProduct},
@@ -123,11 +124,17 @@ std::optional<Instruction> read_instruction(const std::string& mnemonic, const s
     width = Width::k512;
   else if (operands.find("%ymm") != std::string::npos)
     width = Width::k256;
-  return Instruction{found->second, width};
+  return ArithmeticInstruction{found->second, width};
 }
 
 IssueKernels issue_kernels(bool is_float) {
   IssueKernels kernels;
+  // They stay ordinary however often they are multiplied.
+  for (const char* number : {"1.7123456789", "1.0001234567891", "0"}) {
+    kernels.numbers += "{";
+    for (int i = 0; i < (is_float ? 16 : 8); ++i) kernels.numbers += fmt::format("{}, ", number);
+    kernels.numbers += "}, ";
+  }
   for (const Width width : kWidths)
     for (const char* loop : kLoops) {
       const std::string name = name_of(loop, width);

@@ -22,21 +22,24 @@ enum class Arithmetic {
 /// Bits of the registers; one number is as fast as 128 bits, but for quotients and roots.
 enum class Width { kOne, k128, k256, k512 };
 
-struct Instruction {
+struct ArithmeticInstruction {
   Arithmetic arithmetic;
   Width width;
-  friend auto operator<=>(const Instruction&, const Instruction&) = default;  // NOLINT(modernize-use-nullptr)
+  friend auto operator<=>(const ArithmeticInstruction&,
+                          const ArithmeticInstruction&) = default;  // NOLINT(modernize-use-nullptr)
 };
 
 /// By kind, of a call.
-using ArithmeticCounts = std::map<Instruction, double>;
+using ArithmeticCounts = std::map<ArithmeticInstruction, double>;
 
 /// From a mnemonic and its operands, "vmulpd %ymm1,%ymm2,%ymm3", as objdump writes them. Nothing for instructions
 /// without arithmetic in float or double: moves, comparisons, conversions, roundings.
-std::optional<Instruction> read_instruction(const std::string& mnemonic, const std::string& operands);
+std::optional<ArithmeticInstruction> read_instruction(const std::string& mnemonic,
+                                                      const std::string& operands);
 
 /// Loops whose rates are measured, "sum0" to "root3" with the number of Width; "both" has sums and products by turns.
 struct IssueKernels {
+  std::string numbers;    ///< that registers are filled with, 64 bytes each: a start, a factor, zeros
   std::string functions;  ///< C++, of inline assembly
   std::string table;      ///< rows of name, instructions of a round, function
 };

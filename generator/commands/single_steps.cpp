@@ -15,7 +15,7 @@ namespace {
 /// An instruction of the program.
 struct Place {
   bool own = false;  ///< of the measuring program
-  std::optional<Instruction> arithmetic;
+  std::optional<ArithmeticInstruction> arithmetic;
 };
 using Places = std::unordered_map<std::size_t, Place>;
 

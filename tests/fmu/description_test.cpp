@@ -85,20 +85,23 @@ TEST_P(Schema, HoldsForEveryModel) {
 
 INSTANTIATE_TEST_SUITE_P(Versions, Schema, testing::Values(2, 3));
 
-/// What TOML may hold and XML may not.
+/// What TOML may hold and XML may not; and a parameter that is called as the time is.
 TEST_P(Schema, HoldsForTextsOfAnyCharacters) {
   const support::TemporaryFolder folder;
   const std::string model = folder.path() + "/odd.toml", unit = folder.path() + "/odd.fmu";
   support::write_file(model,
                       "[model]\nname = \"odd\"\ndescription = \"a\\uFFFEc\\uFFFFd \\\" <&> \\U0001F600\"\n"
                       "[parameters]\nm = { value = 2, unit = \"kg\", description = \"\\uFFFF]]>\" }\n"
-                      "[[body]]\nname = \"cart\"\nmass = \"m\"\n[[joint]]\nname = \"slide\"\n"
+                      "time = { value = 0.1, unit = \"m\" }\n"
+                      "[[body]]\nname = \"cart\"\nmass = \"m\"\ncenter_of_mass = [\"time\", 0, "
+                      "0]\n[[joint]]\nname = \"slide\"\n"
                       "type = \"prismatic\"\nparent = \"world\"\nchild = \"cart\"\naxis = [1, 0, 0]\n");
   const support::ProcessResult made =
       support::run_process({command_folder() + "/jourdain", "fmu", model, "--fmi", std::to_string(GetParam()),
                             kSourcesOnly, "-o", unit});
   ASSERT_EQ(made.status, 0) << made.output;
   const Fmu fmu(unit, false);
+  EXPECT_EQ(fmu.variable("time_parameter").at("causality"), "parameter");
   const support::ProcessResult result = validate(GetParam(), {fmu.folder() + "/modelDescription.xml"});
   EXPECT_EQ(result.status, 0) << result.output;
 }

@@ -1,7 +1,8 @@
-/* Included at the end of a block, which it runs: block STEPS STEP [PARAMETER...], inputs 0.1, 0.2, … held. Prints what the ports
-   hold at the end, a line for each, or the block's error with status 3. */
+/* Included at the end of a block, which it runs: block STEPS STEP [PARAMETER...], STEP a number or [], inputs 0.1, 0.2, …
+   held. Prints what the ports hold at the end, a line for each, or the block's error with status 3. */
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 int main(int count, char** words) {
   double step = atof(words[2]), numbers[64], input[64];
@@ -11,8 +12,8 @@ int main(int count, char** words) {
 
   for (k = 0; k < 64; ++k) input[k] = 0.1 * (k + 1);
   for (k = 3; k < count; ++k) numbers[k - 3] = atof(words[k]);
-  parameters[0].numbers = &step;
-  parameters[0].count = 1;
+  parameters[0].count = strcmp(words[2], "[]") != 0;
+  parameters[0].numbers = parameters[0].count > 0 ? &step : NULL;
   parameters[1].numbers = numbers;
   parameters[1].count = (size_t)(count - 3);
   block.parameters = parameters;

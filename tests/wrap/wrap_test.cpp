@@ -258,7 +258,7 @@ ProcessResult run_block(const std::string& model, const std::string& method,
   return support::run_process(command);
 }
 
-/// The last row of what the command simulates with inputs as block.c has them, one at most; without time.
+/// The last row of what the command simulates with inputs as cg_sfun.h has them, one at most; without time.
 Numbers simulated(const std::string& model, const std::string& method, const std::string& duration,
                   const std::string& step, std::size_t count) {
   const ProcessResult result = run_script(
@@ -301,7 +301,7 @@ TEST(Wrap, SimulinkIsToldWhatGoesWrong) {
   const ProcessResult no_step = run_block("quadrotor", "rk4", {"10", "0"});
   EXPECT_THAT(no_step.output, HasSubstr("the length of a step has to be one positive number"));
   EXPECT_EQ(no_step.status, 3);
-  for (const char* length : {"inf", "nan", "-1"})
+  for (const char* length : {"inf", "nan", "-1", "[]"})
     EXPECT_EQ(run_block("quadrotor", "rk4", {"10", length}).status, 3) << length;
   EXPECT_THAT(run_block("quadrotor", "rk4", {"10", "1e-3", "1", "2"}).output,
               HasSubstr("the model has 1 parameters"));
