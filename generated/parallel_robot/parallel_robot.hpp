@@ -27,8 +27,8 @@
 //   linearly_implicit_euler_step, ros34pw2_step, rosw43_step, rodas4_step
 // Checked before this file was written
 // - validated at 8 states: in 77 digits everything below agrees to 1e-40 of its scale (what rounding can move
-//   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 6.1e-16 of the
-//   sum of absolute terms, other errors are 1.7e-15 of their scale; cond(M) up to 2.0e+00
+//   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 5.6e-16 of the
+//   sum of absolute terms, other errors are 1.1e-15 of their scale; cond(M) up to 2.0e+00
 // - the symbolic equations (M, k_bar, q_bar, energies, outputs): the numeric reference
 // - initial_state: the assembled start
 // - position_rate: Z z of the equations, z as the loops allow
@@ -251,7 +251,7 @@ void outputs(const Model<Real>& model, const State<Real>& state, const Input<Rea
 
 /// Sets the dependent positions to those that close the loops at state.t and the independent positions, near
 /// where they are. Call it after changing a state; steps end with it.
-/// 589 operations (325 mul, 255 add and sub, 9 div), 34 sin and cos.
+/// 588 operations (325 mul, 254 add and sub, 9 div), 34 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void close_loops(const Model<Real>& model, State<Real>& state) noexcept;
 
@@ -271,7 +271,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 5460 operations. For inputs sampled at the stages include parallel_robot_kernels.hpp and pass a function
+/// 5459 operations. For inputs sampled at the stages include parallel_robot_kernels.hpp and pass a function
 /// of the state instead of `input`.
 template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;

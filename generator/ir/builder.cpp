@@ -17,6 +17,13 @@ constexpr std::size_t kSmallestTable = 256;
 /// Literals this near to a double, relatively, are it: 0.7 (1/0.7) is 1.
 constexpr double kRounding = 1e-61;
 
+/// 0 where they cancel but for their rounding.
+cln::cl_R sum_of(const cln::cl_R& a, const cln::cl_R& b) {
+  const cln::cl_R sum = a + b;
+  const cln::cl_R larger = cln::max(cln::abs(a), cln::abs(b));
+  return cln::abs(sum) < cln::rational(cln::cl_DF(kRounding)) * larger ? cln::cl_R(0) : sum;
+}
+
 std::size_t hash(const Node& node) {
   auto h = static_cast<std::size_t>(node.op);
   const auto mix = [&h](std::size_t x) { h = (h ^ x) * 0x9E3779B97F4A7C15ull + (h >> 29); };
@@ -105,7 +112,7 @@ Signed Builder::add(Signed a, Signed b) {
   if (is_literal(a, 0)) return b;
   if (is_literal(b, 0)) return a;
   if (a.value == b.value && a.negative != b.negative) return literal(0);
-  if (is_literal(a) && is_literal(b)) return literal(literal_of(a) + literal_of(b));
+  if (is_literal(a) && is_literal(b)) return literal(sum_of(literal_of(a), literal_of(b)));
   if (a.negative == b.negative) {
     if (b.value < a.value) std::swap(a, b);
     return {intern({.op = Op::kAdd, .a = a.value, .b = b.value}), a.negative};

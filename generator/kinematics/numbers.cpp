@@ -36,18 +36,29 @@ Ex snapped(const Ex& entry, const numeric& tolerance) {
   return entry;
 }
 
-/// Of 0 to 3 quarter turns.
-constexpr int kQuarterCosine[] = {1, 0, -1, 0};
-
-/// How many quarter turns a number is but for rounding, from 0 to 3.
-std::optional<int> quarter_turns(const Ex& angle) {
+/// How many twelfths of π a number is but for rounding, from 0 to 23, where that is a multiple of π/6 or π/4.
+std::optional<int> simple_turn(const Ex& angle) {
   if (!is_number(angle)) return {};
-  const cln::cl_F value = to_float(angle), quarter = cln::pi(value) / 2;
-  const cln::cl_I count = cln::round1(value / quarter);
-  const cln::cl_RA turns = cln::max(cln::cl_RA(cln::abs(count)), cln::cl_RA(1));
-  if (cln::abs(value - count * quarter) > turns * cln::rational(cln::cl_DF(model::kQuarterRounding)))
+  const cln::cl_F value = to_float(angle), twelfth = cln::pi(value) / 12;
+  const cln::cl_I count = cln::round1(value / twelfth);
+  const cln::cl_RA quarters = cln::max(cln::cl_RA(cln::abs(count)) / 6, cln::cl_RA(1));
+  if (cln::abs(value - count * twelfth) > quarters * cln::rational(cln::cl_DF(model::kAngleRounding)))
     return {};
-  return cln::cl_I_to_int(cln::mod(count, 4));
+  const int twelfths = cln::cl_I_to_int(cln::mod(count, 24));
+  return twelfths % 2 == 0 || twelfths % 3 == 0 ? std::optional(twelfths) : std::nullopt;
+}
+
+/// Of a multiple of π/6 or π/4.
+Ex cosine_of_twelfths(int count) {
+  const int below_half = count <= 12 ? count : 24 - count;
+  const int acute = below_half <= 6 ? below_half : 12 - below_half;
+  const Ex half = numeric(1, 2);
+  const Ex cosine = acute == 0   ? Ex(1)
+                    : acute == 2 ? square_root(3) / 2
+                    : acute == 3 ? square_root(2) / 2
+                    : acute == 4 ? half
+                                 : Ex(0);
+  return below_half <= 6 ? cosine : -cosine;
 }
 
 /// A bound value with the functions that Expression::evaluate looks up by argument.
@@ -277,9 +288,9 @@ Matrix3 rotation_matrix(const model::Rotation& rotation, std::span<const Ex> par
   Vector3 c, s;
   for (std::size_t i = 0; i < 3; ++i) {
     const Ex angle = to_symbolic(rotation.rpy[i], parameters, statements);
-    const std::optional<int> turns = snap ? quarter_turns(angle) : std::nullopt;
-    c[i] = statements.bind("c", turns ? kQuarterCosine[*turns] : cosine(angle));
-    s[i] = statements.bind("s", turns ? kQuarterCosine[(*turns + 3) % 4] : sine(angle));
+    const std::optional<int> turn = snap ? simple_turn(angle) : std::nullopt;
+    c[i] = statements.bind("c", turn ? cosine_of_twelfths(*turn) : cosine(angle));
+    s[i] = statements.bind("s", turn ? cosine_of_twelfths((*turn + 18) % 24) : sine(angle));
   }
   const Matrix3 Rx = {{{1, 0, 0}, {0, c[0], -s[0]}, {0, s[0], c[0]}}};
   const Matrix3 Ry = {{{c[1], 0, s[1]}, {0, 1, 0}, {-s[1], 0, c[1]}}};

@@ -46,8 +46,8 @@ Taylor differentiated(const model::Expression& expression, std::span<const Ex> p
 Taylor differentiated(const model::Expression& expression, const Ex& variable, std::span<const Ex> parameters,
                       Statements& statements);
 
-/// Rotation matrix of roll, pitch, yaw. With `snap`, each constant angle that is a multiple of π/2 but for
-/// model::kQuarterRounding is that multiple: the matrix stays orthonormal.
+/// Rotation matrix of roll, pitch, yaw. With `snap`, each constant angle that is a multiple of π/6 or π/4 but for
+/// model::kAngleRounding is that multiple: the matrix stays orthonormal, and equal entries are equal to the last digit.
 Matrix3 rotation_matrix(const model::Rotation& rotation, std::span<const Ex> parameters, bool snap,
                         Statements& statements);
 

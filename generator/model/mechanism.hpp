@@ -311,7 +311,7 @@ struct Mechanism : ForceElements {
   std::vector<Loop> loops;
   LoopOptions loop_options;
   std::vector<DrawnGround> grounds;
-  /// Constant angles that are a multiple of a quarter turn but for rounding are that multiple: their matrices
+  /// Constant angles that are a multiple of π/6 or π/4 but for rounding are that multiple: matrices of quarter turns
   /// are permutations.
   bool snap = true;
   SnappedDirections snapped;
@@ -321,8 +321,9 @@ struct Mechanism : ForceElements {
   SourceRange where = {};  ///< of what describes it as a whole
 };
 
-/// By which a double that stands for a multiple of a quarter turn may be off, times the larger of 1 and that multiple.
-inline constexpr double kQuarterRounding = 1e-15;
+/// By which a double that stands for a simple fraction of a turn may be off, rad, times the larger of 1 and its number
+/// of quarter turns.
+inline constexpr double kAngleRounding = 1e-15;
 
 /// Joints parent before child, depth first from the world, siblings in order of declaration. This is the order of
 /// the coordinates (joints of type kFixed have none). The mechanism must have passed `check_mechanism`.

@@ -55,7 +55,7 @@ std::optional<double> snapped_angle(const Expression& angle, double tolerance) {
   const double read = angle.constant();
   const long double turns = std::round(static_cast<long double>(read) / kQuarter);
   const long double distance = std::abs(static_cast<long double>(read) - turns * kQuarter);
-  if (distance <= kQuarterRounding * std::max(1.0L, std::abs(turns)) || distance > tolerance) return {};
+  if (distance <= kAngleRounding * std::max(1.0L, std::abs(turns)) || distance > tolerance) return {};
   return static_cast<double>(turns * kQuarter);
 }
 
@@ -67,6 +67,42 @@ std::optional<std::array<double, 3>> snapped_axis(const std::array<double, 3>& a
   for (double& entry : snapped)
     if (std::abs(entry) <= tolerance * std::abs(largest)) entry = 0;
   return snapped == axis ? std::nullopt : std::optional(snapped);
+}
+
+/// The radius of gyration, m, of all bodies whose mass and inertia are numbers, each about an axis of its own; 0: none.
+double size_of(const Mechanism& mechanism) {
+  double inertia = 0, mass = 0;
+  for (const Body& body : mechanism.bodies) {
+    const auto& [xx, yy, zz, xy, xz, yz] = body.inertia;
+    if (!body.mass.is_constant() || !xx.is_constant() || !yy.is_constant() || !zz.is_constant()) continue;
+    inertia += std::max({xx.constant(), yy.constant(), zz.constant()});
+    mass += body.mass.constant();
+  }
+  const double size = std::sqrt(inertia / mass);
+  return std::isfinite(size) ? size : 0;
+}
+
+/// Numbers that are no larger than `rounding` become 0.
+void drop(Expression& number, double rounding) {
+  if (number.is_constant() && std::abs(number.constant()) <= rounding) number = 0.0;
+}
+
+/// Lengths below the rounding of the mechanism's size, and products of inertia below that of its moments, which
+/// programs that export robots leave where zeros were meant.
+void drop_rounding(Mechanism& mechanism) {
+  const double rounding = kLengthRounding * size_of(mechanism);
+  const auto drop_in = [rounding](Vector3& position) {
+    for (Expression& length : position) drop(length, rounding);
+  };
+  for (Joint& joint : mechanism.joints) drop_in(joint.placement.position);
+  for (Frame& frame : mechanism.frames) drop_in(frame.placement.position);
+  for (Body& body : mechanism.bodies) {
+    drop_in(body.center_of_mass);
+    auto& [xx, yy, zz, xy, xz, yz] = body.inertia;
+    if (!xx.is_constant() || !yy.is_constant() || !zz.is_constant()) continue;
+    const double least = std::min({xx.constant(), yy.constant(), zz.constant()});
+    for (Expression* product : {&xy, &xz, &yz}) drop(*product, kLengthRounding * least);
+  }
 }
 
 /// "1 angle", "3 angles", "".
@@ -113,7 +149,7 @@ class Snapping {
   void snap(std::size_t i, const PlacedAxis& placed) {
     const std::optional<std::array<double, 3>> snapped = snapped_axis(*placed.axis, tolerance_);
     if (!snapped) return;
-    const bool is_rounding = snapped_axis(*placed.axis, kQuarterRounding) == snapped;
+    const bool is_rounding = snapped_axis(*placed.axis, kAngleRounding) == snapped;
     if (!is_rounding) {
       mechanism_.snapped.axes.push_back({i, *placed.axis});
       found(placed.owner);
@@ -140,6 +176,7 @@ void snap_directions(Mechanism& mechanism, double tolerance, support::Diagnostic
   Snapping snapping(mechanism, tolerance);
   snapping.run();
   snapping.note(diagnostics);
+  drop_rounding(mechanism);
 }
 
 Mechanism with_directions_as_read(Mechanism mechanism) {

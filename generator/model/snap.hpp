@@ -11,9 +11,14 @@ inline constexpr double kDefaultSnap = 2e-5;
 /// Beyond that an angle is another one.
 inline constexpr double kMaximumSnap = 0.01;
 
+/// Of the mechanism's size: lengths below are rounding.
+inline constexpr double kLengthRounding = 1e-15;
+
 /// Each constant angle of a rotation within `tolerance` (rad) of a multiple of a quarter turn becomes that
 /// multiple, each axis within it of a coordinate axis or plane lies on that; `mechanism.snapped` keeps what
-/// stood there. One note says how many there are.
+/// stood there. One note says how many there are. Without a note, lengths of at most kLengthRounding times the radius
+/// of gyration of all bodies become 0 (places of joints and frames, centres of mass), and products of inertia of at
+/// most kLengthRounding times the least moment of their body.
 void snap_directions(Mechanism& mechanism, double tolerance, support::Diagnostics& diagnostics);
 
 /// The mechanism with the directions that its description gives; no angle is read as a quarter turn.

@@ -31,17 +31,22 @@ Turn<Scalar> turn_by(const Scalar& angle) {
   return {cos(angle), sin(angle)};
 }
 
-/// By the multiple of a quarter turn that `angle` (rad) is but for model::kQuarterRounding, if it is.
+/// By the multiple of π/6 or π/4 that `angle` (rad) is but for model::kAngleRounding, if it is.
 template <class Scalar>
 Turn<Scalar> snapped_turn(const Scalar& angle) {
-  using std::abs, std::atan2;
+  using std::abs, std::atan2, std::sqrt;
   const Scalar quarter = atan2(Scalar(1), Scalar(0));
-  const double count = std::round(static_cast<double>(angle / quarter));
-  const double rounding = model::kQuarterRounding * std::max(1.0, std::fabs(count));
-  if (!(abs(angle - Scalar(count) * quarter) <= Scalar(rounding))) return turn_by(angle);
-  const int turns = static_cast<int>(std::fmod(std::fmod(count, 4) + 4, 4));
-  const int cosines[] = {1, 0, -1, 0};
-  return {Scalar(cosines[turns]), Scalar(cosines[(turns + 3) % 4])};
+  const double count = std::round(static_cast<double>(angle * Scalar(6) / quarter));
+  const double rounding = model::kAngleRounding * std::max(1.0, std::fabs(count) / 6);
+  if (!(abs(angle - Scalar(count) * quarter / Scalar(6)) <= Scalar(rounding))) return turn_by(angle);
+  const int sixths = static_cast<int>(std::fmod(std::fmod(count, 24) + 24, 24));
+  Turn<Scalar> turn{Scalar(1), Scalar(0)};
+  if (sixths % 6 == 2) turn = {sqrt(Scalar(3)) / Scalar(2), Scalar(1) / Scalar(2)};
+  if (sixths % 6 == 3) turn = {sqrt(Scalar(2)) / Scalar(2), sqrt(Scalar(2)) / Scalar(2)};
+  if (sixths % 6 == 4) turn = {Scalar(1) / Scalar(2), sqrt(Scalar(3)) / Scalar(2)};
+  if (sixths % 6 == 1 || sixths % 6 == 5) return turn_by(angle);
+  for (int quarters = sixths / 6; quarters > 0; --quarters) turn = {-turn.s, turn.c};
+  return turn;
 }
 
 /// The rotation about the unit vector `axis` (Rodrigues' formula).
@@ -65,7 +70,7 @@ Vector3<Scalar> vector_value(const model::Vector3& vector, std::span<const Scala
 }
 
 /// R = Rz(yaw) Ry(pitch) Rx(roll) at the given parameter values. With `snap`, constant angles that are a
-/// multiple of a quarter turn but for model::kQuarterRounding are that multiple.
+/// multiple of π/6 or π/4 but for model::kAngleRounding are that multiple.
 template <class Scalar>
 Matrix3<Scalar> rotation_value(const model::Rotation& rotation, std::span<const Scalar> parameters,
                                bool snap) {

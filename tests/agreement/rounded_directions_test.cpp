@@ -1,4 +1,4 @@
-// Robot files whose angles and axes were rounded, or carry the noise of what exported them.
+// Robot files whose angles, axes and lengths were rounded, or carry the noise of what exported them.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -80,6 +80,24 @@ TEST(RoundedDirections, CompileAndAgreeAndFourDecimalsCostNothing) {
     }
     fmt::print("\n");
   }
+}
+
+// Where zeros were meant, programs that export robots leave what rounding left them.
+TEST(RoundedDirections, LengthsAndProductsOfInertiaThatAreRoundingCostNothing) {
+  const std::string robot = "rail_arm", text = support::read_file(urdf_path(robot).string());
+  const auto with_dust = [&text](double dust) {
+    std::string changed = text;
+    for (const std::string opening : {" xyz=\"", "ixy=\"", "ixz=\"", "iyz=\""})
+      changed = with_numbers(changed, opening, [dust](double x) { return x == 0 ? dust : x; });
+    return changed;
+  };
+  const std::optional<long> exact = operations(robot, text);
+  ASSERT_TRUE(exact);
+  EXPECT_EQ(operations(robot, with_dust(1e-18)), exact);
+  EXPECT_EQ(operations(robot, with_dust(-2.7e-51)), exact);
+  const std::optional<long> meant = operations(robot, with_dust(1e-9));
+  ASSERT_TRUE(meant);
+  EXPECT_GT(*meant, *exact);
 }
 
 }  // namespace

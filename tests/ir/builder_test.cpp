@@ -28,6 +28,14 @@ TEST(Builder, KnowsThatALiteralTimesItsReciprocalIsOne) {
   EXPECT_TRUE(b.is_literal(one, 1));
 }
 
+TEST(Builder, KnowsThatLiteralsCancelButForTheirRounding) {
+  Builder b;
+  const cln::cl_F third = cln::cl_float(cln::cl_RA("1/3"), cln::float_format(63));
+  const auto less = [&](const char* share) { return -b.literal(third * (cln::cl_R(1) - cln::cl_R(share))); };
+  EXPECT_TRUE(b.is_literal(b.add(b.literal(third), less("1.0e-62_70")), 0));
+  EXPECT_FALSE(b.is_literal(b.add(b.literal(third), less("1.0e-55_70")), 0));
+}
+
 TEST(Builder, MovesSignsOutward) {
   Builder b;
   const Signed x = b.leaf(LeafKind::kPosition, 0), y = b.leaf(LeafKind::kPosition, 1);

@@ -83,6 +83,64 @@ TEST(Snap, AxesLieOnAxesAndPlanesOfTheFrameWhereNear) {
   EXPECT_EQ(read("0 0 0", "0.6 0.8 0.00001").mechanism.joints[0].axis, (Triple{0.6, 0.8, 0}));
 }
 
+/// A bar of 0.1 m about its middle, 1 kg, with this place of its hinge, centre of mass and product of inertia.
+Mechanism bar(const std::string& place, const std::string& center, const std::string& product, double snap) {
+  const std::string text = fmt::format(R"(<robot name="bar">
+  <link name="base"/>
+  <link name="bar"><inertial><origin xyz="{}"/><mass value="1"/>
+    <inertia ixx="0.01" ixy="{}" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial></link>
+  <joint name="hinge" type="continuous">
+    <origin xyz="{}"/>
+    <parent link="base"/>
+    <child link="bar"/>
+  </joint>
+</robot>
+)",
+                                       center, product, place);
+  support::Diagnostics diagnostics("bar.urdf", text);
+  ReadOptions options;
+  options.snap = snap;
+  Mechanism mechanism = read_mechanism(diagnostics, options).value();
+  EXPECT_EQ(diagnostics.format(), "");
+  return mechanism;
+}
+
+Triple numbers(const Vector3& vector) {
+  return {vector[0].constant(), vector[1].constant(), vector[2].constant()};
+}
+
+TEST(Snap, LengthsAndProductsThatAreRoundingOfTheSizeAreZero) {
+  const auto place = [](const Mechanism& m) { return numbers(m.joints[0].placement.position); };
+  const Mechanism dust = bar("0.3 -9e-17 2e-51", "9e-17 0.02 -1e-16", "9e-18", kDefaultSnap);
+  EXPECT_EQ(place(dust), (Triple{0.3, 0, 0}));
+  EXPECT_EQ(numbers(dust.bodies.back().center_of_mass), (Triple{0, 0.02, 0}));
+  EXPECT_EQ(dust.bodies.back().inertia.xy.constant(), 0);
+  const Mechanism meant = bar("0.3 -1.1e-16 0", "0 1.1e-16 0", "1.1e-17", kDefaultSnap);
+  EXPECT_EQ(place(meant), (Triple{0.3, -1.1e-16, 0}));
+  EXPECT_EQ(numbers(meant.bodies.back().center_of_mass)[1], 1.1e-16);
+  EXPECT_NE(meant.bodies.back().inertia.xy.constant(), 0);
+  EXPECT_EQ(place(bar("0.3 -9e-17 0", "0 0 0", "0", 0)), (Triple{0.3, -9e-17, 0}));
+}
+
+TEST(Snap, LengthsStayWhereNoBodyHasASize) {
+  support::Diagnostics diagnostics("point.toml", R"([model]
+name = "point"
+[[body]]
+name = "bob"
+mass = 1.0
+center_of_mass = [0.0, 0.0, 1e-20]
+[[joint]]
+name = "hinge"
+type = "revolute"
+parent = "world"
+child = "bob"
+axis = [0.0, 1.0, 0.0]
+)");
+  const std::optional<Mechanism> mechanism = read_mechanism(diagnostics, {});
+  ASSERT_TRUE(mechanism) << diagnostics.format();
+  EXPECT_EQ(mechanism->bodies.back().center_of_mass[2].constant(), 1e-20);
+}
+
 TEST(Snap, IsUndone) {
   const Read of = read("1.5708 0 0.3", "0 1e-6 1");
   const Mechanism before = with_directions_as_read(of.mechanism);

@@ -89,7 +89,7 @@ double SdfFile::snapped(double angle, SourceRange where) {
   constexpr double kQuarter = std::numbers::pi / 2;
   const double near = std::round(angle / kQuarter) * kQuarter;
   if (snap_ == 0 || angle == near || !(std::abs(angle - near) <= snap_)) return angle;
-  if (std::abs(angle - near) > kQuarterRounding * std::max(1.0, std::abs(near)) && snapped_++ == 0)
+  if (std::abs(angle - near) > kAngleRounding * std::max(1.0, std::abs(near)) && snapped_++ == 0)
     first_snapped_ = where;
   return near;
 }
