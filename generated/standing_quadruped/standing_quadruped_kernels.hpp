@@ -378,6 +378,7 @@ struct TwoPairs {
   typedef LanesOf<2, double>::Type Pair;
   Pair low, high;
 
+  TwoPairs() = default;
   TwoPairs(const Pair& first, const Pair& second) noexcept : low(first), high(second) {}
   TwoPairs(double a, double b, double c, double d) noexcept : low(Pair{a, b}), high(Pair{c, d}) {}
   double operator[](int lane) const noexcept { return lane < 2 ? low[lane] : high[lane - 2]; }
@@ -404,6 +405,7 @@ struct PairTwice {
   typedef float Vector __attribute__((vector_size(16)));
   Vector numbers;
 
+  PairTwice() = default;
   PairTwice(const Vector& all) noexcept : numbers(all) {}
   PairTwice(float a, float b) noexcept : numbers(Vector{a, b, a, b}) {}
   float operator[](int lane) const noexcept { return numbers[lane]; }

@@ -70,6 +70,7 @@ class Counter {
     return total + (call.is_support ? of_support(call.function) : of_model(call.function));
   }
   long operator()(const Return&) { return 0; }
+  long operator()(const Nearby&) { return 0; }
 
  private:
   long of_model(const std::string& function) const {

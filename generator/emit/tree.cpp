@@ -32,6 +32,7 @@ Statement::Statement(Loop loop) : is(std::move(loop)) {}
 Statement::Statement(AtStart start) : is(std::move(start)) {}
 Statement::Statement(Call call) : is(std::move(call)) {}
 Statement::Statement(Return result) : is(std::move(result)) {}
+Statement::Statement(Nearby nearby) : is(std::move(nearby)) {}
 Statement::Statement(const Statement&) = default;
 Statement::Statement(Statement&&) noexcept = default;
 Statement& Statement::operator=(const Statement&) = default;
@@ -108,6 +109,9 @@ struct Mentions {
   }
   bool operator()(const Call& call) const { return any(call.arguments); }
   bool operator()(const Return& result) const { return mentions(result.value, variable); }
+  bool operator()(const Nearby& nearby) const {
+    return nearby.window == variable || nearby.variable == variable;
+  }
 };
 
 }  // namespace

@@ -140,8 +140,15 @@ struct Return {
   Expression value;
 };
 
+/// `variable` is the array `window` of `extent` numbers, addressed anew.
+struct Nearby {
+  Type type;  ///< of an entry
+  std::size_t extent = 0;
+  std::string variable, window;
+};
+
 struct Statement {
-  std::variant<Declare, Set, SineCosine, Loop, AtStart, Call, Return> is;
+  std::variant<Declare, Set, SineCosine, Loop, AtStart, Call, Return, Nearby> is;
 
   Statement(Declare declare);
   Statement(Set set);
@@ -150,6 +157,7 @@ struct Statement {
   Statement(AtStart start);
   Statement(Call call);
   Statement(Return result);
+  Statement(Nearby nearby);
   Statement(const Statement& other);
   Statement(Statement&& other) noexcept;
   Statement& operator=(const Statement& other);

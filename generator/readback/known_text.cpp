@@ -128,6 +128,35 @@ Real cosine(const Angle<Real>& x) noexcept {
 }
 )";
 
+constexpr const char* kNearby = R"(#if defined(__GNUC__) && defined(__x86_64__) && !defined(__INTEL_COMPILER) && !defined(__CUDA__) && !defined(__CUDACC__)
+#define JOURDAIN_NEARBY
+#endif
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#undef JOURDAIN_NEARBY
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(memory_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(undefined_behavior_sanitizer)
+#undef JOURDAIN_NEARBY
+#endif
+#endif
+template <class Window> JOURDAIN_FUNCTION
+inline Window& nearby(Window& window) noexcept {
+#if defined(JOURDAIN_NEARBY)
+  if (sizeof(Window) <= 256) {
+    char* middle = reinterpret_cast<char*>(&window) + 128;
+    __asm__("" : "+r"(middle));
+    return *reinterpret_cast<Window*>(middle - 128);
+  }
+#endif
+  return window;
+}
+#undef JOURDAIN_NEARBY
+)";
+
+/// What that returns.
+constexpr const char* kWindow = R"(template <class Window> JOURDAIN_FUNCTION
+inline Window& nearby(Window& window) noexcept { return window; }
+)";
+
 // Of packs: numbers, sines and cosines that a pack may bring itself.
 constexpr const char* kNumbers = R"(namespace detail {
 
@@ -254,6 +283,7 @@ const std::vector<KnownText>& known_texts(bool packs) {
     for (const std::string& text : own_sine_blocks()) list.push_back(known("detail", "", text));
     list.push_back(known("detail", "", own_arctangent(), library_arctangent()));
     list.push_back(known("detail", kLanesType, lanes_text()));
+    list.push_back(known("detail", "", kNearby, kWindow));
     add_choosing_texts(list, false);
     return list;
   }();
@@ -266,6 +296,7 @@ const std::vector<KnownText>& known_texts(bool packs) {
     for (const std::string& text : own_sine_blocks()) list.push_back(known("detail", "", text));
     list.push_back(known("detail", "", own_arctangent(), library_arctangent()));
     list.push_back(known("detail", kLanesType, lanes_text()));
+    list.push_back(known("detail", "", kNearby, kWindow));
     list.push_back(known("", "", kNumbers));
     list.push_back(known("", "", kNumberOfTime));
     list.push_back(known("detail", "", kNumberOfAngle));

@@ -82,6 +82,7 @@ class TreeInterpreter::Frame {
     Frame(all_, function, arguments).run(function.body);
   }
   void operator()(const emit::Return& result) { result_ = evaluate(result.value); }
+  void operator()(const emit::Nearby& nearby) { places_[nearby.variable] = places_.at(nearby.window); }
 
  private:
   void execute(const emit::Statements& statements) {

@@ -76,6 +76,10 @@ class BodyPrinter {
   std::string operator()(const Return& result) {
     return line(fmt::format("return {};", expressions_.object(result.value)));
   }
+  std::string operator()(const Nearby& nearby) {
+    JD_CHECK(false, "'{}' is C++'s", nearby.variable);
+    return "";
+  }
 
  private:
   std::string of(const Expression& e) const { return expressions_.text(e); }

@@ -18,6 +18,7 @@
 #include "emit/cpp/index_constants.hpp"
 #include "emit/cpp/structs.hpp"
 #include "emit/cpp/user_functions.hpp"
+#include "emit/far_values.hpp"
 #include "emit/function_names.hpp"
 #include "emit/layout.hpp"
 #include "emit/manifest.hpp"
@@ -48,6 +49,7 @@ class Emitter {
         called_(called_in(module)),
         steps_(step_records(model.facts, functions, module)) {
     if (own_sines()) gather_sines();
+    keep_far_values();
   }
 
   std::vector<File> files() const {
@@ -73,6 +75,7 @@ class Emitter {
         {"FLOAT_SINES", if_any(!own_sines(), "library_sines_float.in")},
         {"SINE_BLOCKS", sine_blocks()},
         {"LANES", if_any(has_lanes(), "lanes.in")},
+        {"NEARBY", if_any(has_far_values_, "nearby.in")},
         {"STATE_DOC", state_doc()},
         {"STATE", state_members()},
         {"NG", guard_limits(model_)},
@@ -165,6 +168,23 @@ class Emitter {
     body = std::move(gathered->body);
     most_blocks_ = std::max(most_blocks_, gathered->sizes.size());
     block_sizes_.insert(gathered->sizes.begin(), gathered->sizes.end());
+  }
+
+  void keep_far_values() {
+    const auto keep = [this](Statements& body) {
+      std::optional<Statements> kept = with_far_values(body);
+      if (!kept) return;
+      body = std::move(*kept);
+      has_far_values_ = true;
+    };
+    for (std::size_t k = 0; k < functions_.size(); ++k) {
+      CutFunction& cut = code_.functions[k];
+      std::size_t statements = cut.function.body.size();
+      for (const Function& part : cut.parts) statements += part.body.size();
+      if (functions_[k].stepper || statements < kLongFunction) continue;
+      keep(cut.function.body);
+      for (Function& part : cut.parts) keep(part.body);
+    }
   }
 
   /// Of as many angles at once as functions ask for. A few in a function are inlined; where there are many, g++ keeps
@@ -315,6 +335,7 @@ class Emitter {
   ModelCode code_;
   std::vector<support::CalledFunction> called_;
   std::vector<StepRecord> steps_;
+  bool has_far_values_ = false;
   std::size_t most_blocks_ = 0;        ///< of sines of several angles, in one function
   std::set<std::size_t> block_sizes_;  ///< how many angles blocks take at once
 };

@@ -182,6 +182,10 @@ class StatementPrinter {
     return line(fmt::format("{}{}({});", prefix(call.is_support), call.function, arguments));
   }
   std::string operator()(const Return& result) const { return line("return " + of(result.value) + ";"); }
+  std::string operator()(const Nearby& nearby) const {
+    return line(fmt::format("{} (&{})[{}] = {}nearby({});", type_text(nearby.type, "Real", place_),
+                            nearby.variable, nearby.extent, prefix(true), nearby.window));
+  }
 
  private:
   std::string of(const Expression& e) const { return expression_text(e, place_); }
