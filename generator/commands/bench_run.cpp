@@ -96,10 +96,12 @@ void build(const LoadedMechanism& loaded, const CompiledModel& compiled, const B
   run_tool(joined(
       compiler_words(choices),
       {"-ffunction-sections", "-c", folder + "/" + loaded.options.name + ".cpp", "-o", folder + "/model.o"}));
+  run_tool(joined(choices.compiler,
+                  {"-std=c++17", "-O2", "-c", folder + "/bench.cpp", "-o", folder + "/bench.o"}));
   // Bound at its start, so that no call is counted with the search for a function of a library; not moved, so that
   // addresses are those of its disassembly.
-  run_tool(joined(choices.compiler, {"-std=c++17", "-O2", folder + "/bench.cpp", folder + "/model.o",
-                                     "-Wl,-z,now", "-no-pie", "-o", folder + "/bench"}));
+  run_tool(joined(compiler_words(choices), {folder + "/bench.o", folder + "/model.o", "-Wl,-z,now", "-no-pie",
+                                            "-o", folder + "/bench"}));
 }
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
@@ -221,7 +223,7 @@ BenchResult measure_functions(const LoadedMechanism& loaded, const CompiledModel
   BenchResult result;
   result.compiler = first_line(run_tool(joined(choices.compiler, {"--version"})));
   result.processor = processor_name();
-  for (const std::string& name : measured(compiled)) result.rows.push_back({name, 0, 0, 0, 0, 0, {}, {}});
+  for (const std::string& name : measured(compiled)) result.rows.emplace_back().name = name;
   const support::TemporaryFolder folder;
   build(loaded, compiled, choices, folder.path());
   const std::map<std::string, std::string> signatures = function_signatures(
@@ -237,7 +239,11 @@ BenchResult measure_functions(const LoadedMechanism& loaded, const CompiledModel
                                   fmt::format("{}", choices.block_length / kMicrosecond)},
                                  rates_to_measure(stepped))),
                  result);
-  for (const auto& [name, calls] : stepped) row_named(result, name).floor = floor_of(calls, rates);
+  for (const auto& [name, calls] : stepped) {
+    BenchRow& row = row_named(result, name);
+    row.x87 = calls.x87;
+    if (!row.x87) row.floor = floor_of(calls, rates);
+  }
   count_instructions(folder.path(), signatures, stepped, result);
   return result;
 }

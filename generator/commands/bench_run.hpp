@@ -36,12 +36,13 @@ struct Floor {
 /// Of one emitted function.
 struct BenchRow {
   std::string name;
-  int calls = 0;                             ///< in a block
-  double fastest = 0, median = 0;            ///< s a call, of the blocks
-  int finite = 0;                            ///< states that give finite numbers
-  long code = 0;                             ///< bytes, with all that it calls of the model
+  int calls = 0;                   ///< in a block
+  double fastest = 0, median = 0;  ///< s a call, of the blocks
+  int finite = 0;                  ///< states that give finite numbers
+  std::optional<long> code;  ///< bytes, with what it calls of the model; nothing where the linker makes it
   std::optional<Instructions> instructions;  ///< with libm's; nothing where they could not be counted
-  std::optional<Floor> floor;                ///< nothing where single steps could not be counted
+  std::optional<Floor> floor;  ///< nothing where single steps could not be counted or met x87's arithmetic
+  bool x87 = false;            ///< single steps met x87's arithmetic
 };
 
 struct BenchResult {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "emit/body.hpp"
@@ -49,7 +50,7 @@ std::string table(const BenchReport& report) {
                time_cell(row.fastest), time_cell(row.median), row.floor ? time_cell(row.floor->time) : "",
                row.floor && row.floor->time > 0 ? fmt::format("{:.2f}", row.fastest / row.floor->time) : "",
                n ? fmt::format("{:.0f}", n->mean) : "", differs ? fmt::format("{}", n->least) : "",
-               differs ? fmt::format("{}", n->most) : "", fmt::format("{}", row.code)});
+               differs ? fmt::format("{}", n->most) : "", row.code ? fmt::format("{}", *row.code) : ""});
   }
   return table.text();
 }
@@ -91,6 +92,13 @@ std::vector<std::string> remarks(const BenchReport& report) {
           "the fastest block");
       break;
     }
+  const auto add_once = [&](const auto& is_so, const char* remark) {
+    if (std::any_of(report.result.rows.begin(), report.result.rows.end(), is_so)) list.emplace_back(remark);
+  };
+  add_once([](const BenchRow& row) { return !row.code; },
+           "bytes are not known of functions whose code the compiler leaves to the linker (-flto)");
+  add_once([](const BenchRow& row) { return row.x87; },
+           "functions that compute in x87's registers have no floor: that arithmetic is not counted");
   for (const BenchRow& row : report.result.rows)
     if (row.floor && row.floor->outside > 0)
       list.push_back(fmt::format("of {}, {:.0f} instructions a call are of libraries and not in the floor",
@@ -139,7 +147,7 @@ std::string bench_json(const BenchReport& report) {
          {"floating_point_instructions", row.floor ? Json(row.floor->arithmetic) : Json()},
          {"instructions_of_libraries", row.floor ? Json(row.floor->outside) : Json()},
          {"instructions", n ? Json({{"mean", n->mean}, {"least", n->least}, {"most", n->most}}) : Json()},
-         {"code_bytes", row.code},
+         {"code_bytes", row.code ? Json(*row.code) : Json()},
          {"finite_states", row.finite}});
   }
   const Json json = {{"generator", fmt::format("Jourdain {}", emit::kVersion)},

@@ -109,6 +109,7 @@ int run(const CheckArguments& given) {
   loaded->options.words = arguments->words;
   const CompiledModel compiled = compile(loaded->mechanism, loaded->options);
   if (!compiled.verdict.accepted()) return refuse(*loaded, compiled.verdict);
+  tell_float_misfit(compiled);
   fmt::print("ok: {}: {} bodies, {}, {} inputs; backward error {:.1e}, cond(M) up to {}\n",
              loaded->options.name, loaded->mechanism.bodies.size(), freedom_text(*loaded),
              compiled.facts.inputs.size(), compiled.verdict.backward_error,

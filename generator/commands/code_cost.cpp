@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <memory>
 #include <set>
 #include <sstream>
@@ -151,14 +152,14 @@ std::optional<CodeCost> find_cost(const CallGraph& graph, const std::string& sig
   return {};
 }
 
-/// Does the compiler draw graphs of calls?
+/// Does the compiler draw graphs of calls? With -flto the linker would.
 bool draws_calls(const std::string& folder, NumberType number) {
   support::write_file(folder + "/empty.cpp", "");
   std::vector<std::string> command = compiler_command(number);
   for (const std::string& argument : {std::string("-fcallgraph-info=su"), std::string("-c"),
                                       folder + "/empty.cpp", std::string("-o"), folder + "/empty.o"})
     command.push_back(argument);
-  return support::run_process(command).status == 0;
+  return support::run_process(command).status == 0 && std::filesystem::exists(folder + "/empty.ci");
 }
 
 CallGraph compiled_graph(const CodeTools& tools, const std::string& source, const std::string& object) {
@@ -207,13 +208,16 @@ std::optional<std::map<std::string, CodeCost>> code_costs(const std::string& nam
 std::map<std::string, long> linked_code(const std::string& object,
                                         const std::map<std::string, std::string>& signatures) {
   CallGraph graph;
-  read_relocations(run_tool({"objdump", "-r", "-w", object + ".o"}), graph);
+  const support::ProcessResult relocations = support::run_process({"objdump", "-r", "-w", object + ".o"});
+  if (relocations.status != 0) return {};  // as clang writes objects for the linker to optimise
+  read_relocations(relocations.output, graph);
   const std::string listing = run_tool({"nm", "-S", "--defined-only", object + ".o"});
   read_defined(listing, graph);
   read_sizes(listing, graph);
   std::map<std::string, long> bytes;
   for (const auto& [function, signature] : signatures)
-    if (const std::optional<CodeCost> cost = find_cost(graph, signature)) bytes[function] = cost->code;
+    if (const std::optional<CodeCost> cost = find_cost(graph, signature); cost && cost->code > 0)
+      bytes[function] = cost->code;
   return bytes;
 }
 

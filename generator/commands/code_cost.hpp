@@ -35,14 +35,14 @@ std::map<std::string, CodeCost> source_costs(const CodeTools& tools, const std::
                                              const std::map<std::string, std::string>& signatures);
 
 /// By name, "model" for the constructor, of NAME.cpp of `compiled` with the options of `build_model`. Nothing
-/// where the compiler knows no -fcallgraph-info, as clang. Throws EnvironmentError where the code does not
-/// compile or `nm` cannot be run.
+/// where the compiler draws no graph of calls, as clang, or g++ with -flto. Throws EnvironmentError where the code
+/// does not compile or `nm` cannot be run.
 std::optional<std::map<std::string, CodeCost>> code_costs(const std::string& name,
                                                           const CompiledModel& compiled, NumberType number);
 
 /// Bytes of machine code by name, of the functions in `object`.o with all that they call of it, each once. It must have
-/// been compiled with -ffunction-sections, which every compiler knows. Throws EnvironmentError where nm or objdump
-/// cannot be run.
+/// been compiled with -ffunction-sections, which every compiler knows. Functions without code are left out: all, where
+/// the linker makes it (-flto). Throws EnvironmentError where nm or objdump cannot be run.
 std::map<std::string, long> linked_code(const std::string& object,
                                         const std::map<std::string, std::string>& signatures);
 

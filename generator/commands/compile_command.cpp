@@ -53,6 +53,7 @@ int run(const CompileArguments& arguments, const CLI::App& command) {
     };
   const CompiledModel compiled = compile(loaded->mechanism, loaded->options);
   if (!compiled.verdict.accepted()) return refuse(*loaded, compiled.verdict);
+  tell_float_misfit(compiled);
   std::vector<std::string> outputs = paths_in(arguments.folder, compiled.files);
   outputs.push_back(arguments.depfile);
   if (!are_outputs_apart(outputs, loaded->sources)) return kUsage;

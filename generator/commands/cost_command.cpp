@@ -55,7 +55,7 @@ int report_on(const CostArguments& arguments, const RunModel& model, const Compi
   if (!inputs) return status;
   studies::Flow<double> flow(loaded.table(), *inputs->inputs);
   flow.set_start(inputs->start);
-  if (!check_closed(model, flow)) return kModelWrong;
+  if (!check_closed(model, flow) || !check_rates(flow)) return kModelWrong;
   bar.show("stack and code", 0);
   const studies::ReportHead head = head_of(arguments, model.loaded, compiler_text(number));
   CostReport report{head, compiled,          loaded.table(),       code_costs(name, compiled, number),
@@ -129,6 +129,7 @@ int run(CostArguments arguments) {
   bar.show("deriving the equations", 0);
   CompileOptions options = model->loaded.options;
   options.functions = loadable_functions(arguments.methods);
+  options.choices.has_double = arguments.run.real != "float";
   const CompiledModel compiled = compile(model->loaded.mechanism, options);
   if (!compiled.verdict.accepted()) return refuse(model->loaded, compiled.verdict);
   return arguments.target.empty() ? report_on(arguments, *model, compiled, bar)

@@ -107,8 +107,9 @@ std::string operations_remark(const CostReport& report, const StepCost& step) {
 
 std::string memory_remark(const CostReport& report) {
   if (!report.code)
-    return fmt::format("stack and code are not known: '{}' has no -fcallgraph-info; set CXX=g++",
-                       report.head.compiler);
+    return fmt::format(
+        "stack and code are not known: '{}' draws no graph of calls (-fcallgraph-info); set CXX=g++",
+        report.head.compiler);
   std::string deepest;
   long stack = 0;
   for (const auto& [name, cost] : *report.code)

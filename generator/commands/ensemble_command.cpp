@@ -105,6 +105,7 @@ int run(EnsembleArguments arguments) {
   CompileOptions& options = model->loaded.options;
   options.functions = loadable_functions({arguments.choices.method});
   options.choices.packs = true;
+  options.choices.has_double = arguments.run.real != "float";
   ProgressBar bar;
   bar.show("deriving the equations", 0);
   const CompiledModel compiled = compile(model->loaded.mechanism, options);
@@ -127,6 +128,14 @@ int run(EnsembleArguments arguments) {
   if (!is_sound_where_drawn(*model, arguments.run.model.path, *spreads, arguments.choices.seed,
                             arguments.states))
     return kModelWrong;
+  const loops::LoopPlan* const plan = model->loaded.plan();
+  const auto is_of_input = [](const Spread& spread) { return spread.of == Spread::Of::kInput; };
+  if (plan && plan->treatment == model::LoopTreatment::kMultipliers &&
+      !std::all_of(spreads->begin(), spreads->end(), is_of_input))
+    fmt::print(stderr,
+               "note: drawn states close their loops by the least change, weighed by masses: positions and "
+               "velocities that '{}' gives move with the others\n",
+               model->loaded.mechanism.name);
   EnsembleResult result;
   result.shard = *shard;
   result.columns = columns_of(*model, signals, *spreads);

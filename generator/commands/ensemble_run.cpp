@@ -11,6 +11,7 @@
 #include "commands/content_hash.hpp"
 #include "commands/tool.hpp"
 #include "emit/templates.hpp"
+#include "reference/minimal.hpp"
 #include "support/check.hpp"
 #include "support/files.hpp"
 
@@ -29,14 +30,42 @@ std::string drawing(const Spread& spread, std::size_t number, const std::string&
       number, spread.is_normal ? "normal" : "uniform", base, spread.width, target);
 }
 
+/// Do initial values follow a parameter that is drawn?
+bool starts_follow(const RunModel& model, const std::vector<Spread>& spreads) {
+  const auto start_at = [&model](const std::vector<double>& parameters) {
+    return reference::Reference<double>(model.loaded.mechanism, parameters).initial_state();
+  };
+  const auto usual = start_at(model.parameters);
+  return std::any_of(spreads.begin(), spreads.end(), [&](const Spread& spread) {
+    if (spread.of != Spread::Of::kParameter) return false;
+    std::vector<double> drawn = model.parameters;
+    drawn[spread.entry] += spread.width;
+    const auto start = start_at(drawn);
+    return start.y != usual.y || start.z != usual.z;
+  });
+}
+
+/// Where states start at the settings; empty where `initial_state` knows it.
+std::string start_text(const RunModel& model, const programs::SceneFacts& facts,
+                       const std::vector<Spread>& spreads) {
+  const std::vector<double> start = start_at_settings(model);
+  if (start.empty() || starts_follow(model, spreads)) return "";
+  std::string text;
+  const std::size_t positions = facts.positions.size();
+  for (std::size_t i = 0; i < start.size(); ++i)
+    text += i < positions ? fmt::format("  start.state.y[{}] = {};\n", i, real_of(start[i]))
+                          : fmt::format("  start.state.z[{}] = {};\n", i - positions, real_of(start[i]));
+  return text;
+}
+
 struct Drawing {
   std::string parameters, state;  ///< before and after there is a start
 };
 
 Drawing drawing_of(const RunModel& model, const CompiledModel& compiled, const std::vector<Spread>& spreads,
                    const std::vector<double>& inputs) {
-  Drawing text;
   const programs::SceneFacts& facts = compiled.facts;
+  Drawing text{"", start_text(model, facts, spreads)};
   for (std::size_t i = 0; i < facts.parameters.size(); ++i)
     text.parameters +=
         fmt::format("  start.parameters.{} = {};\n", facts.parameters[i].name, real_of(model.parameters[i]));

@@ -127,6 +127,14 @@ std::optional<ArithmeticInstruction> read_instruction(const std::string& mnemoni
   return ArithmeticInstruction{found->second, width};
 }
 
+bool is_x87_arithmetic(const std::string& mnemonic) {
+  // Behind some stems, "r" swaps the operands, "p" takes one from the stack, "s" or "l" is of one in memory.
+  constexpr std::array kStems = {"fadd",  "fsub",  "fmul", "fdiv", "fiadd", "fisub",  "fimul", "fidiv",
+                                 "fsqrt", "fprem", "fsin", "fcos", "fptan", "fpatan", "f2xm1", "fyl2x"};
+  return std::any_of(kStems.begin(), kStems.end(),
+                     [&](const char* stem) { return mnemonic.starts_with(stem); });
+}
+
 IssueKernels issue_kernels(bool is_float) {
   IssueKernels kernels;
   // They stay ordinary however often they are multiplied.

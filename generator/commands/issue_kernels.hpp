@@ -37,6 +37,9 @@ using ArithmeticCounts = std::map<ArithmeticInstruction, double>;
 std::optional<ArithmeticInstruction> read_instruction(const std::string& mnemonic,
                                                       const std::string& operands);
 
+/// Does the instruction compute in the registers of x87, whose rates are not measured?
+bool is_x87_arithmetic(const std::string& mnemonic);
+
 /// Loops whose rates are measured, "sum0" to "root3" with the number of Width; "both" has sums and products by turns.
 struct IssueKernels {
   std::string numbers;    ///< that registers are filled with, 64 bytes each: a start, a factor, zeros

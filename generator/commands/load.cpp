@@ -60,6 +60,9 @@ std::map<std::string, model::Limits> limits_of(const model::Mechanism& mechanism
 }
 
 std::string check_name(const std::string& name) {
+  constexpr std::size_t kLongest = 200;  // that with its endings is the name of a file
+  if (name.size() > kLongest)
+    return fmt::format("a name of {} characters is too long; there may be {}", name.size(), kLongest);
   if (!model::is_identifier(name) || name.find("__") != std::string::npos || name[0] == '_')
     return fmt::format("'{}' is not a C++ identifier that may name a namespace", name);
   if (model::is_reserved(name) || model::cpp_name(name) != name)
@@ -175,7 +178,7 @@ std::optional<LoadedMechanism> load(const ModelArguments& arguments, External ex
   loaded.limits = limits_of(loaded.mechanism, diagnostics);
   loaded.options.name = arguments.name.empty() ? model::cpp_name(loaded.mechanism.name) : arguments.name;
   loaded.options.loops = std::move(plan);
-  if (loaded.options.loops) fmt::print(stderr, "{}", loops::assembly_text(*loaded.options.loops));
+  if (loaded.options.loops) fmt::print(stderr, "{}", loops::assembly_text(loaded.options.loops->moved));
   loaded.options.path = printed_path(arguments.path);
   loaded.options.sha256 = sha256_of(diagnostics.text());
   loaded.options.imported = imported_files(diagnostics);
@@ -208,6 +211,11 @@ std::vector<std::string> loop_sentences(const LoadedMechanism& loaded) {
                                m.coordinate, m.velocity ? "'s velocity" : "", m.to, m.from));
   if (moved.empty()) list.push_back("the initial state of the description is closed as it is");
   return list;
+}
+
+void tell_float_misfit(const CompiledModel& compiled) {
+  if (!compiled.float_misfit.empty())
+    fmt::print(stderr, "note: {}; --real double writes no floats\n", compiled.float_misfit);
 }
 
 int refuse(const LoadedMechanism& loaded, const validate::Verdict& verdict) {

@@ -64,6 +64,9 @@ std::vector<std::string> loop_sentences(const LoadedMechanism& loaded);
 std::optional<LoadedMechanism> load(const ModelArguments& arguments,
                                     External external = External::kWrittenOut);
 
+/// Prints a note where files for double hold floats too, and a number has no room there.
+void tell_float_misfit(const CompiledModel& compiled);
+
 /// Prints why the compiler refused to emit, in three lines. The status to exit with: kModelWrong where double
 /// has no room for the mechanism's numbers.
 int refuse(const LoadedMechanism& loaded, const validate::Verdict& verdict);

@@ -27,6 +27,7 @@
 #include "report/report_page.hpp"
 #include "studies/report.hpp"
 #include "studies/study.hpp"
+#include "support/check.hpp"
 
 namespace jourdain::commands {
 
@@ -208,7 +209,20 @@ studies::Study make_study(const ReportArguments& arguments, const RunModel& mode
                             [&bar](const std::string& what, double done) { bar.show(what, done); });
 }
 
-/// Writes the files and prints what they say; the exit status.
+/// Names of what an older report in the folder may have left beside `written`; none where there is none.
+std::vector<std::string> names_beside(const std::string& folder,
+                                      const std::vector<support::FileText>& written) {
+  std::vector<std::string> names = report::page_names(methods_for(programs::DerivativeTerms::kAll));
+  for (const std::string& name : studies::report_csv_names()) names.push_back(name);
+  const bool is_first = !std::filesystem::exists(std::filesystem::path(folder) / "report.json");
+  for (const support::FileText& file : written) {
+    const bool is_known = std::erase(names, file.name) == 1 || file.name == "report.json";
+    JD_CHECK(is_known, "a report has no file {}", file.name);
+  }
+  return is_first ? std::vector<std::string>() : names;
+}
+
+/// Writes the files, removes those of an older report and prints what they say; the exit status.
 int write_report(const ReportArguments& arguments, const std::string& folder, const RunModel& model,
                  const studies::ReportHead& head, const studies::Flow<double>& flow,
                  const studies::Study& study, const report::Figure& figure, ProgressBar& bar) {
@@ -220,8 +234,13 @@ int write_report(const ReportArguments& arguments, const std::string& folder, co
       files.push_back(std::move(file));
   }
   bar.clear();
-  if (!are_outputs_apart(paths_in(folder, files), files_read(arguments.run, model))) return kUsage;
-  support::write_files(folder, files);
+  const std::vector<std::string> stale = names_beside(folder, files), read = files_read(arguments.run, model);
+  std::vector<std::string> removed;
+  for (const std::string& name : stale) removed.push_back(folder + "/" + name);
+  if (!are_outputs_apart(paths_in(folder, files), read) ||
+      !are_outputs_apart(removed, read, "is read, and would be removed"))
+    return kUsage;
+  support::write_files(folder, files, stale);
   fmt::print("{}  wrote", studies::report_text(head, flow.table(), study));
   for (const support::FileText& file : files)
     fmt::print(" {}", (std::filesystem::path(folder) / file.name).generic_string());
@@ -272,6 +291,7 @@ int run(ReportArguments arguments) {
   }
   CompileOptions options = model->loaded.options;
   options.functions = loadable_functions(arguments.methods);
+  options.choices.has_double = arguments.run.real != "float";
   // With what is carried along there are more displacements than its derivatives have in the table of a model.
   const bool carries = model->loaded.plan() && !model->loaded.plan()->carried().empty();
   if (velocities <= kMostVelocities && !carries) options.functions.push_back("forward_dynamics_derivatives");
@@ -290,7 +310,7 @@ int run(ReportArguments arguments) {
   if (!inputs) return status;
   studies::Flow<double> flow(table, *inputs->inputs);
   flow.set_start(inputs->start);
-  if (!check_closed(*model, flow)) return kModelWrong;
+  if (!check_closed(*model, flow) || !check_rates(flow)) return kModelWrong;
   const studies::Study study = make_study(
       arguments, *model, *inputs, programs::displaced_tangent(compiled.facts), flow, long_table, free, bar);
   return write_report(arguments, folder, *model, head_of(arguments, model->loaded, inputs->what), flow, study,
@@ -324,7 +344,9 @@ void add_report(CLI::App& app, int& status) {
   const CLI::Validator time(read_time, "TIME", "time");
   arguments->run.add_to(*command);
   command->add_option("-o,--output", arguments->folder, "folder to write into (default: NAME_report)");
-  command->add_option("--duration", arguments->study.duration, "simulated time, as 2s; whole longest steps")
+  command
+      ->add_option("--duration", arguments->study.duration,
+                   "simulated time, as 2s; whole longest steps, four at least")
       ->transform(time)
       ->default_str("2s");
   command

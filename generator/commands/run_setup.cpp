@@ -5,6 +5,7 @@
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -12,6 +13,7 @@
 #include "commands/input_table.hpp"
 #include "compile/start_check.hpp"
 #include "loops/plan/parameter_check.hpp"
+#include "loops/plan/plan_text.hpp"
 #include "loops/plan/planned_start.hpp"
 #include "model/check/checks.hpp"
 #include "model/coordinates.hpp"
@@ -140,6 +142,11 @@ std::optional<RunModel> read_run(const RunArguments& arguments, int& status) {
     }
   if (!arguments.settings.empty() && !is_sound_at(model, arguments.model.path, "--set leads to this"))
     return {};
+  for (const double input : arguments.constant_input)
+    if (!std::isfinite(input)) {
+      fmt::print(stderr, "error: --constant-input has {}: numbers are expected\n", input);
+      return {};
+    }
   const std::size_t inputs = model::lay_out_coordinates(model.loaded.mechanism).input_count();
   if (!arguments.constant_input.empty() && arguments.constant_input.size() != inputs) {
     fmt::print(stderr, "error: --constant-input has {} values, the model has {} inputs\n",
@@ -156,66 +163,26 @@ std::vector<std::string> files_read(const RunArguments& arguments, const RunMode
   return paths;
 }
 
-namespace {
-
-/// Initial values of the tree at the settings, and at the default values, where those differ; none without loops.
-std::optional<std::pair<reference::State<double>, reference::State<double>>> start_of_tree(
-    const RunModel& model) {
-  const model::Mechanism& mechanism = model.loaded.mechanism;
-  const std::vector<double> defaults = model::default_values(mechanism);
-  if (!model.loaded.plan() || model.parameters.empty() || model.parameters == defaults) return {};
-  const auto given = reference::Reference<double>(mechanism, model.parameters).initial_state(),
-             usual = reference::Reference<double>(mechanism, defaults).initial_state();
-  if (given.y == usual.y && given.z == usual.z) return {};
-  return std::pair(given, usual);
-}
-
-/// y and z of the state that the description starts from at the settings, closed; empty where emitted code knows it.
 std::vector<double> start_at_settings(const RunModel& model) {
-  const auto tree = start_of_tree(model);
-  if (!tree) return {};
   model::Mechanism mechanism = model.loaded.mechanism;
+  const loops::LoopPlan* const plan = model.loaded.plan();
+  if (!plan || model.parameters == model::default_values(mechanism)) return {};
   for (std::size_t i = 0; i < mechanism.parameters.size(); ++i)
     mechanism.parameters[i].value = model.parameters[i];
   support::Diagnostics diagnostics("--set", "");
-  const loops::LoopPlan& plan = *model.loaded.plan();
-  const std::optional<loops::Start> start = loops::planned_start(mechanism, plan, diagnostics);
+  const std::optional<loops::Start> start = loops::planned_start(mechanism, *plan, diagnostics);
   if (!start) return {};  // what does not close is told where the run looks at its start
+  fmt::print(stderr, "{}", loops::assembly_text(start->moved, "at these parameters "));
   std::vector<double> x(start->configuration.y.begin(), start->configuration.y.end());
-  const Eigen::VectorXd& given = tree->first.z;
+  const Eigen::VectorXd given = reference::Reference<double>(mechanism, model.parameters).initial_state().z;
   const auto velocity = [&](std::size_t k) {
     return static_cast<double>(k < std::size_t(start->z.size()) ? start->z[Eigen::Index(k)]
                                                                 : given[Eigen::Index(k)]);
   };
-  for (std::size_t k = 0; !plan.is_reduced() && k < std::size_t(given.size()); ++k) x.push_back(velocity(k));
-  for (const std::size_t k : plan.independent) x.push_back(velocity(k));
+  for (std::size_t k = 0; !plan->is_reduced() && k < std::size_t(given.size()); ++k) x.push_back(velocity(k));
+  for (const std::size_t k : plan->independent) x.push_back(velocity(k));
   return x;
 }
-
-/// Says what the settings ask the start to be and the loops do not leave so.
-void tell_moved_start(const RunModel& model, const studies::Flow<double>& flow) {
-  const auto tree = start_of_tree(model);
-  if (!tree) return;
-  constexpr double kRoundings = 1e3;
-  const double noticeable = std::max(1e-9, kRoundings * flow.table().unit_roundoff);
-  const model::CoordinateLayout layout = model::lay_out_coordinates(model.loaded.mechanism);
-  const auto& [given, usual] = *tree;
-  const std::vector<double> start = flow.start().x;
-  const auto compare = [&](const std::vector<std::string>& names, const Eigen::VectorXd& wanted,
-                           const Eigen::VectorXd& before, std::size_t first, const char* rate) {
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      const double asked = wanted[Eigen::Index(i)], found = start[first + i];
-      if (asked != before[Eigen::Index(i)] && std::fabs(found - asked) > noticeable * (1 + std::fabs(asked)))
-        fmt::print(stderr, "note: the loops close with {}{} = {:.10g} instead of {:.10g}\n", names[i], rate,
-                   found, asked);
-    }
-  };
-  compare(layout.position_names, given.y, usual.y, 0, "");
-  if (start.size() == layout.position_count() + layout.velocity_count())  // otherwise of independent ones
-    compare(layout.velocity_names, given.z, usual.z, layout.position_count(), "'s velocity");
-}
-
-}  // namespace
 
 std::optional<RunInputs> read_inputs(const RunArguments& arguments, const RunModel& model,
                                      const jourdain_model_table& table,
@@ -245,14 +212,22 @@ bool check_closed(const RunModel& model, const studies::Flow<double>& flow) {
   constexpr double kOpen = 1e7;  // units of rounding
   const studies::Residuals open = flow.residuals(flow.start());
   const double allowed = kOpen * flow.table().unit_roundoff;
-  if (open.position <= allowed && open.velocity <= allowed) {
-    if (flow.has_loops()) tell_moved_start(model, flow);
-    return true;
-  }
+  if (open.position <= allowed && open.velocity <= allowed) return true;
   fmt::print(stderr, "error: the loops of '{}' do not close {}: they are open by {:.2g} (rate {:.2g}/s)\n",
              model.loaded.mechanism.name,
              model.parameters.empty() ? "at the start" : "at these values of its parameters", open.position,
              open.velocity);
+  return false;
+}
+
+bool check_rates(const studies::Flow<double>& flow) {
+  const studies::Point<double> start = flow.start();
+  if (start.x.empty()) return true;
+  const std::vector<double> rates = flow.rates(start.t, start.x);
+  if (std::all_of(rates.begin(), rates.end(), [](double rate) { return std::isfinite(rate); })) return true;
+  fmt::print(stderr,
+             "error: the equations of motion have no finite rates at the start: the mass matrix is singular "
+             "there, or a force or an input has no value\n");
   return false;
 }
 

@@ -40,6 +40,10 @@ std::vector<std::string> files_read(const RunArguments& arguments, const RunMode
 /// values.
 bool is_sound_at(const RunModel& model, const std::string& path, const std::string& cause);
 
+/// y and z that a run starts from at the parameters' values, with closed loops; what moved is printed. Empty where
+/// emitted code knows it: without loops, or at the default values.
+std::vector<double> start_at_settings(const RunModel& model);
+
 /// Inputs of a run and the state that it starts from (empty: the description's).
 struct RunInputs {
   std::unique_ptr<studies::Inputs> inputs;
@@ -55,6 +59,9 @@ std::optional<RunInputs> read_inputs(const RunArguments& arguments, const RunMod
 
 /// Whether the loops close at the start; false after a message.
 bool check_closed(const RunModel& model, const studies::Flow<double>& flow);
+
+/// Whether rates at the start are numbers; false after a message.
+bool check_rates(const studies::Flow<double>& flow);
 
 NumberType number_type(const std::string& real);
 

@@ -243,6 +243,7 @@ int run(const SimulateArguments& arguments) {
   const std::string output = arguments.output.empty() ? options.name + ".csv" : arguments.output;
   if (!are_outputs_apart({output, plot->file}, files_read(arguments.run, *model))) return kUsage;
   options.functions = loadable_functions({arguments.method});
+  options.choices.has_double = arguments.run.real != "float";
   const CompiledModel compiled = compile(model->loaded.mechanism, options);
   if (!compiled.verdict.accepted()) return refuse(model->loaded, compiled.verdict);
   const Signals signals(model->loaded, compiled.facts.outputs);

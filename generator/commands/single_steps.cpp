@@ -16,6 +16,7 @@ namespace {
 struct Place {
   bool own = false;  ///< of the measuring program
   std::optional<ArithmeticInstruction> arithmetic;
+  bool x87 = false;
 };
 using Places = std::unordered_map<std::size_t, Place>;
 
@@ -32,7 +33,8 @@ Places read_places(const std::string& disassembly, const std::string& own) {
     std::string mnemonic, operands;
     fields >> mnemonic;
     std::getline(fields, operands);
-    places[std::strtoull(line.c_str(), nullptr, 16)] = {is_own, read_instruction(mnemonic, operands)};
+    places[std::strtoull(line.c_str(), nullptr, 16)] = {is_own, read_instruction(mnemonic, operands),
+                                                        is_x87_arithmetic(mnemonic)};
   }
   return places;
 }
@@ -63,6 +65,8 @@ std::map<std::string, SteppedCalls> read_steps(const std::string& output, const 
         own_instructions[name] += number;
       else if (place->second.arithmetic)
         functions[name].arithmetic[*place->second.arithmetic] += number;
+      else if (place->second.x87)
+        functions[name].x87 = true;
     }
   }
   std::erase_if(functions, [](const auto& item) {

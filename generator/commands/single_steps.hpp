@@ -14,6 +14,7 @@ struct SteppedCalls {
   std::vector<double> instructions;  ///< of each call, with those of libraries
   ArithmeticCounts arithmetic;       ///< a call, the mean; without libraries
   double outside = 0;                ///< instructions of libraries, a call
+  bool x87 = false;                  ///< arithmetic of x87's registers was met, which `arithmetic` has not
 };
 
 /// By function. `output` has lines "steps NAME COUNT...", "outside NAME COUNT", "at NAME ADDRESS COUNT" of a program

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "compile/expected_text.hpp"
@@ -13,6 +14,7 @@
 #include "compile/omissions.hpp"
 #include "emit/c/c_files.hpp"
 #include "emit/c/c_interface.hpp"
+#include "emit/constant_tables.hpp"
 #include "emit/cpp/model_files.hpp"
 #include "loops/plan/plan.hpp"
 #include "passes/lanes.hpp"
@@ -36,8 +38,10 @@ void check_inertia(const model::Mechanism& mechanism, support::Diagnostics& diag
   }
   for (model::JointIndex index : reference::massless_joints(mechanism)) {
     const model::Joint& joint = mechanism.joints[index.value];
-    diagnostics.error(joint.where, fmt::format("joint '{}' moves no inertia", joint.name),
-                      "give a body that it moves a mass or an inertia, or make the joint fixed");
+    diagnostics.error(
+        joint.where, fmt::format("joint '{}' moves no inertia", joint.name),
+        "give a body that it moves a mass or an inertia that is not lost in rounding beside the "
+        "others, or make the joint fixed");
   }
 }
 
@@ -53,15 +57,55 @@ CompileOptions completed(const model::Mechanism& mechanism, const CompileOptions
   return chosen;
 }
 
+std::vector<double> literals_of(const ir::Module& module) {
+  std::vector<double> literals;
+  const auto gather = [&literals](const ir::Program& program) {
+    for (const ir::Node& node : program.nodes)
+      if (node.op == ir::Op::kLiteral) literals.push_back(node.literal);
+  };
+  gather(module.constants);
+  for (const ir::Program& program : module.functions) gather(program);
+  return literals;
+}
+
 /// Is one of the constants beyond the range of double?
 bool overflows(const ir::Module& module) {
-  const auto has_overflow = [](const ir::Program& program) {
-    return std::any_of(program.nodes.begin(), program.nodes.end(), [](const ir::Node& node) {
-      return node.op == ir::Op::kLiteral && std::isinf(node.literal);
-    });
-  };
-  return has_overflow(module.constants) ||
-         std::any_of(module.functions.begin(), module.functions.end(), has_overflow);
+  return std::ranges::any_of(literals_of(module), [](double literal) { return std::isinf(literal); });
+}
+
+/// Why a module that was not accepted could not be validated, where a constant is so near to zero that the digits
+/// behind its double, which validation takes, are below all doubles; empty: there is none.
+std::string lost_digits(const ir::Module& module) {
+  constexpr long double kShare = validate::kAlgebra / 1e3L;  // of a constant, that counts
+  for (const double literal : literals_of(module))
+    if (literal != 0 && std::fabs(literal) * kShare < std::numeric_limits<double>::denorm_min())
+      return fmt::format(
+          "a constant of the equations is {:.6g}, so near to the end of the range of double that too few "
+          "digits "
+          "are left to validate it",
+          literal);
+  return "";
+}
+
+/// What float does to a number of double; empty: it rounds it.
+std::string misfit(double value) {
+  const auto narrow = static_cast<float>(value);
+  if (std::isinf(narrow)) return "is beyond the range of float";
+  if (value == 0 || !(std::fabs(narrow) < std::numeric_limits<float>::min())) return "";
+  return narrow == 0 ? "is zero in float" : "has few digits in float, near to the end of its range";
+}
+
+/// A sentence on the first constant or parameter that float has no room for; empty: there is none.
+std::string find_misfit(const ir::Module& module, const programs::SceneFacts& scene) {
+  for (const double literal : literals_of(module))
+    if (const std::string what = misfit(literal); !what.empty())
+      return fmt::format("a constant of the equations, {}, {}", literal, what);
+  for (const model::Parameter& parameter : scene.parameters)
+    if (const std::string what = misfit(parameter.value); !what.empty())
+      return fmt::format("parameter '{}', {}, {}", parameter.name, parameter.value, what);
+  for (const std::uint32_t array : emit::arrays_in(module))
+    if (emit::overflows_float(array)) return "a number of a table is beyond the range of float";
+  return "";
 }
 
 }  // namespace
@@ -99,6 +143,12 @@ CompiledModel compile(const model::Mechanism& mechanism, const CompileOptions& g
     result.verdict.overflows = 1;
     return result;
   }
+  if (options.choices.has_float) result.float_misfit = find_misfit(result.module, result.facts);
+  if (!result.float_misfit.empty() && !options.choices.has_double) {
+    result.verdict.failures = {result.float_misfit};
+    result.verdict.overflows = 1;
+    return result;
+  }
   if (options.choices.lanes) {
     const std::vector<passes::LikeLimbs> limbs = programs::like_limbs(mechanism);
     for (ir::Program& program : result.module.functions) {
@@ -133,7 +183,13 @@ void validate_and_emit(const model::Mechanism& mechanism, const Equations& equat
           ? validate::validate_closed(mechanism, equations, result.module, *options.loops)
           : validate::validate_translation(mechanism, equations, result.module, 8, load ? &*load : nullptr);
   result.assumptions = assumptions(mechanism, options, result);
-  if (!result.verdict.accepted()) return;
+  if (!result.verdict.accepted()) {
+    if (const std::string why = lost_digits(result.module); !why.empty()) {
+      result.verdict.failures = {why};
+      result.verdict.overflows = 1;
+    }
+    return;
+  }
   const emit::ModelText text = model_text(mechanism, options, result);
   const bool in_c = options.choices.language == ir::Language::kC;
   if (in_c && options.choices.has_float && emit::c::overflows_float(text, result.module)) {

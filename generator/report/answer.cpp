@@ -59,25 +59,6 @@ const WorkPoint* neighbour(const Study& study, bool longer) {
   return next;
 }
 
-bool keeps_within(const Study& study, const WorkPoint& point) {
-  const studies::Question& question = study.options.question;
-  if (!point.finite) return false;
-  return question.tolerance ? point.largest.position <= *question.tolerance
-                            : point.run_time * question.period <= *question.budget;
-}
-
-/// The best of the other methods' points that answer the question; null where none does.
-const WorkPoint* runner_up(const Study& study) {
-  const bool cheap = study.options.question.tolerance.has_value();
-  const WorkPoint* best = nullptr;
-  for (const WorkPoint& p : study.work.points) {
-    if (p.method == study.advice->method || !keeps_within(study, p)) continue;
-    if (!best || (cheap ? p.run_time < best->run_time : p.largest.position < best->largest.position))
-      best = &p;
-  }
-  return best;
-}
-
 std::string why_step(const Study& study) {
   const bool has_tolerance = study.options.question.tolerance.has_value();
   const WorkPoint* next = neighbour(study, has_tolerance);
@@ -87,6 +68,10 @@ std::string why_step(const Study& study) {
   if (!next->finite)
     return fmt::format("With the next {} one that was tried, {}, the method fails.",
                        has_tolerance ? "longer" : "shorter", time_text(next->h));
+  const std::vector<studies::MethodLimit>& limits = study.stability.limits;
+  if (has_tolerance && !limits.empty() && is_beyond(limits[next->method], next->h))
+    return fmt::format("The next longer one that was tried, {}, is longer than the largest stable one, {}.",
+                       time_text(next->h), time_text(limits[next->method].h));
   if (has_tolerance)
     return fmt::format("With the next longer one that was tried, {}, the error is {}.", time_text(next->h),
                        power_text(next->largest.position));
@@ -97,8 +82,8 @@ std::string why_step(const Study& study) {
 }
 
 std::string why_method(const jourdain_model_table& table, const Study& study) {
-  const WorkPoint* next = runner_up(study);
-  if (!next) return "No other method that was tried keeps within it, with any of its steps.";
+  const std::optional<WorkPoint>& next = study.advice->runner_up;
+  if (!next) return "No other method that was tried can be recommended within it, with any of its steps.";
   const std::string who =
       fmt::format("{} with {}", escaped(table.methods[next->method].name), time_text(next->h));
   if (!study.options.question.tolerance)
@@ -119,7 +104,7 @@ std::string asked_text(const studies::Question& question) {
 /// Where the error is too small for the reference to tell.
 std::string doubt_text(const Study& study) {
   constexpr double kSharp = 1e-13;  // a reference with that error tells all that double has
-  const double least = 10 * study.reference.error;
+  const double least = 10 * study.reference.position_error;
   if (study.reference.error <= kSharp || study.advice->error.position >= least) return "";
   return fmt::format(" The reference cannot tell errors that small: those below {} say nothing.",
                      power_text(least));
@@ -131,7 +116,7 @@ std::string words_html(const Study& study) {
       "<b>method</b> is the rule by which it does so. The <b>error</b> is the largest distance of any "
       "coordinate, a length (m) or an angle (rad), from a far more accurate solution of the same equations, "
       "which itself is off by about {}.</p>\n",
-      power_text(study.reference.error));
+      power_text(study.reference.position_error));
 }
 
 std::string recommendation_html(const jourdain_model_table& table, const Study& study) {

@@ -59,8 +59,10 @@ std::size_t shown_method(const jourdain_model_table& table, const Study& study, 
   return best;
 }
 
+std::string sources_name(const std::string& method) { return "error_sources_" + method; }
+
 Plot sources_plot(const jourdain_model_table& table, const Study& study, std::size_t method) {
-  Plot plot{fmt::format("error_sources_{}", table.methods[method].name),
+  Plot plot{sources_name(table.methods[method].name),
             fmt::format("Where the error of {} at the end comes from", table.methods[method].name),
             "h, s",
             "position error, rad or m",
@@ -346,6 +348,13 @@ std::vector<support::FileText> report_pages(const studies::ReportHead& head,
            {"SCENE", script("report_scene.js.in")},
            {"PLAYER", script("report_player.js.in")}})};
   return files;
+}
+
+std::vector<std::string> page_names(const std::vector<std::string>& methods) {
+  std::vector<std::string> names = {"report.html",          "work_precision.svg", "stability_regions.svg",
+                                    "stability_limits.svg", "energy_drift.svg",   "first_kind.svg"};
+  for (const std::string& method : methods) names.push_back(sources_name(method) + ".svg");
+  return names;
 }
 
 }  // namespace jourdain::report

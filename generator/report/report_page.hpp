@@ -1,6 +1,7 @@
 // Plots of a study and the page that holds them.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "report/figure.hpp"
@@ -13,5 +14,8 @@ namespace jourdain::report {
 std::vector<support::FileText> report_pages(const studies::ReportHead& head,
                                             const studies::Flow<double>& flow, const studies::Study& study,
                                             const Figure& figure);
+
+/// The names of all files that pages of studies of some of these methods can have.
+std::vector<std::string> page_names(const std::vector<std::string>& methods);
 
 }  // namespace jourdain::report

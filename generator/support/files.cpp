@@ -131,6 +131,15 @@ std::string read_all(const std::string& path, int file) {
   }
 }
 
+/// A file or a link, where there is one; no folder.
+void remove_file(const std::string& path) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::symlink_status(path, error);
+  if (!std::filesystem::is_regular_file(status) && !std::filesystem::is_symlink(status)) return;
+  std::filesystem::remove(path, error);
+  if (error) fail(path, "removed", error.message());
+}
+
 /// Makes `folder` where it is missing; the outermost folder that was made, empty where none was.
 std::filesystem::path make_folder(const std::string& folder) {
   std::filesystem::path missing, path = std::filesystem::path(folder).lexically_normal();
@@ -190,7 +199,8 @@ void write_file_by(const std::string& given, const std::function<void(const std:
   }
 }
 
-void write_files(const std::string& folder, const std::vector<FileText>& files) {
+void write_files(const std::string& folder, const std::vector<FileText>& files,
+                 const std::vector<std::string>& stale) {
   const Uninterrupted all_of_it;
   const std::filesystem::path made = make_folder(folder);
   std::vector<std::filesystem::path> temporary;
@@ -213,6 +223,7 @@ void write_files(const std::string& folder, const std::vector<FileText>& files) 
     if (!made.empty()) std::filesystem::remove_all(made, ignored);
     throw;
   }
+  for (const std::string& name : stale) remove_file((std::filesystem::path(folder) / name).string());
 }
 
 void check_writable(const std::string& folder) {

@@ -34,9 +34,10 @@ void write_file(const std::string& path, std::string_view text);
 void write_file_by(const std::string& path, const std::function<void(const std::string&)>& make);
 
 /// Writes all files into `folder`, which is made where it is missing: all under temporary names, then all
-/// renamed; those with that text stay as they are. Throws
+/// renamed; those with that text stay as they are. Then removes the files in it that are named `stale`. Throws
 /// EnvironmentError naming the path; nothing of it is left then. A signal waits until it is done.
-void write_files(const std::string& folder, const std::vector<FileText>& files);
+void write_files(const std::string& folder, const std::vector<FileText>& files,
+                 const std::vector<std::string>& stale = {});
 
 /// Throws EnvironmentError where no file can be written into `folder`, or where it cannot be made. Leaves
 /// nothing behind.

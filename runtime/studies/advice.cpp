@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <tuple>
@@ -10,11 +11,16 @@ namespace jourdain::studies {
 
 namespace {
 
+bool is_unstable(const MotionFacts& facts, std::size_t method, double h) {
+  return !facts.limits.empty() && is_beyond(facts.limits[method], h);
+}
+
 /// Runs with steps of any length, compared after each one.
 class Trials {
  public:
-  Trials(const Flow<double>& flow, double sampling, const ReferenceSolution& reference)
-      : flow_(flow), sampling_(sampling), reference_(reference) {}
+  Trials(const Flow<double>& flow, double sampling, const ReferenceSolution& reference,
+         const MotionFacts& facts)
+      : flow_(flow), sampling_(sampling), reference_(reference), facts_(facts) {}
 
   double sampling() const { return sampling_; }
 
@@ -27,6 +33,7 @@ class Trials {
 
   /// A run that is compared after each step. One that errs by more where the steps meet the reference needs no other.
   bool keeps(std::size_t method, double h, double tolerance) {
+    if (is_unstable(facts_, method, h)) return false;
     const auto keep = [tolerance](const WorkPoint& point) {
       return point.finite && point.largest.position <= tolerance;
     };
@@ -58,6 +65,7 @@ class Trials {
   const Flow<double>& flow_;
   double sampling_;
   const ReferenceSolution& reference_;
+  const MotionFacts& facts_;
   std::map<long, std::optional<ReferenceSolution>> others_;  ///< by steps in a sampling
 };
 
@@ -88,25 +96,60 @@ double longest_step(const WorkPoint& good, double tolerance, Trials& trials,
   return sampling / double(enough);
 }
 
-bool is_whole(double x) { return std::fabs(x - std::round(x)) < 1e-9 * x; }
-
-bool answers(const Question& question, const WorkPoint& point) {
-  if (!point.finite) return false;
-  if (question.tolerance) return point.largest.position <= *question.tolerance;
-  return point.run_time * question.period <= *question.budget && is_whole(question.period / point.h);
+/// By how much rounding alone may be off after one step, rad or m.
+double rounding_of_a_step(const Flow<double>& flow, const ReferenceSolution& reference,
+                          const MotionFacts& facts) {
+  double largest = 1;
+  for (const Point<double>& point : reference.points)
+    for (std::size_t i = 0; i < flow.position_count(); ++i)
+      largest = std::max(largest, std::fabs(point.x[i]));
+  return flow.table().unit_roundoff * largest * facts.growth;
 }
 
-/// Each method's point that answers best.
-std::vector<const WorkPoint*> best_points(const Question& question, const std::vector<WorkPoint>& points) {
+/// Points that miss the tolerance by more than rounding and the reference can be off by; none with a budget.
+std::vector<WorkPoint> points_that_miss(const Question& question, const WorkPrecision& study,
+                                        const Flow<double>& flow, const ReferenceSolution& reference,
+                                        const MotionFacts& facts) {
+  std::vector<WorkPoint> list;
+  if (!question.tolerance) return list;
+  const double known = std::max(*question.tolerance, reference.position_error);
+  const double rounding = rounding_of_a_step(flow, reference, facts);
+  std::copy_if(
+      study.points.begin(), study.points.end(), std::back_inserter(list), [&](const WorkPoint& point) {
+        return !point.finite || point.largest.position > std::max(known, rounding * study.duration / point.h);
+      });
+  return list;
+}
+
+/// Whether `a` answers better than `b`.
+bool is_better(const Question& question, const WorkPoint& a, const WorkPoint& b) {
+  return question.tolerance ? a.run_time < b.run_time : a.largest.position < b.largest.position;
+}
+
+/// Each method's point that answers best; one that holds by luck has a shorter step that misses.
+std::vector<const WorkPoint*> best_points(const Question& question, const std::vector<WorkPoint>& points,
+                                          const std::vector<WorkPoint>& missing, const MotionFacts& facts) {
   std::vector<const WorkPoint*> list;
   for (const WorkPoint& point : points) {
-    if (!answers(question, point)) continue;
+    const bool by_luck = std::any_of(missing.begin(), missing.end(), [&point](const WorkPoint& other) {
+      return other.method == point.method && other.h < point.h;
+    });
+    if (by_luck || !keeps_within(question, point) || is_unstable(facts, point.method, point.h) ||
+        (question.budget && !divides_period(question, point.h)))
+      continue;
     if (list.empty() || list.back()->method != point.method) list.push_back(&point);
-    const bool better = question.tolerance ? point.run_time < list.back()->run_time
-                                           : point.largest.position < list.back()->largest.position;
-    if (better) list.back() = &point;
+    if (is_better(question, point, *list.back())) list.back() = &point;
   }
   return list;
+}
+
+/// The best that is not of `method`.
+std::optional<WorkPoint> best_of_others(const Question& question,
+                                        const std::vector<const WorkPoint*>& candidates, std::size_t method) {
+  std::optional<WorkPoint> best;
+  for (const WorkPoint* point : candidates)
+    if (point->method != method && (!best || is_better(question, *point, *best))) best = *point;
+  return best;
 }
 
 /// The cheapest of the methods, each with its longest step. A step can become up to twice as long.
@@ -128,24 +171,37 @@ std::pair<std::size_t, double> cheapest(const std::vector<const WorkPoint*>& can
 
 }  // namespace
 
+bool keeps_within(const Question& question, const WorkPoint& point) {
+  if (!point.finite) return false;
+  return question.tolerance ? point.largest.position <= *question.tolerance
+                            : point.run_time * question.period <= *question.budget;
+}
+
+bool divides_period(const Question& question, double h) {
+  const double steps = question.period / h;
+  return std::fabs(steps - std::round(steps)) < 1e-9 * steps;
+}
+
 std::optional<Advice> advise(const Question& asked, const WorkPrecision& study, const Flow<double>& flow,
                              double sampling, const ReferenceSolution& reference,
-                             const std::vector<double>& held_inputs) {
+                             const std::vector<double>& held_inputs, const MotionFacts& facts) {
   Question question = asked;
   if (question.tolerance) *question.tolerance -= reference.position_error;
-  const std::vector<const WorkPoint*> candidates = best_points(question, study.points);
+  const std::vector<const WorkPoint*> candidates =
+      best_points(question, study.points, points_that_miss(question, study, flow, reference, facts), facts);
   if (candidates.empty()) return {};
   Advice advice;
-  Trials trials(flow, sampling, reference);
+  Trials trials(flow, sampling, reference, facts);
   if (question.tolerance) {
     std::tie(advice.method, advice.h) = cheapest(candidates, *question.tolerance, trials, reference);
   } else {
     const WorkPoint& best = **std::min_element(
         candidates.begin(), candidates.end(),
-        [](const WorkPoint* a, const WorkPoint* b) { return a->largest.position < b->largest.position; });
+        [&](const WorkPoint* a, const WorkPoint* b) { return is_better(question, *a, *b); });
     advice.method = best.method;
     advice.h = best.h;
   }
+  advice.runner_up = best_of_others(question, candidates, advice.method);
   const WorkPoint run = trials.run(flow, advice.method, advice.h);
   advice.error = run.largest;
   advice.compared = trials.compared(advice.h);

@@ -1,5 +1,7 @@
 #include "studies/driven_inputs.hpp"
 
+#include <algorithm>
+
 #include "model/coordinates.hpp"
 #include "model/taylor.hpp"
 #include "studies/flow.hpp"
@@ -32,6 +34,10 @@ std::vector<Real> values_at(const std::vector<model::Expression>& expressions, c
   return values;
 }
 
+bool any_has_kinks(const std::vector<model::Expression>& expressions) {
+  return std::ranges::any_of(expressions, [](const model::Expression& e) { return e.has_kinks(); });
+}
+
 }  // namespace
 
 std::vector<double> ExpressionInputs::at(double t) const {
@@ -41,6 +47,8 @@ std::vector<double> ExpressionInputs::at(double t) const {
 std::vector<LongReal> ExpressionInputs::at(const LongReal& t) const {
   return values_at<LongReal>(inputs_, t, parameters_);
 }
+
+bool ExpressionInputs::has_kinks() const { return any_has_kinks(inputs_); }
 
 FollowingInputs::FollowingInputs(const model::Mechanism& mechanism, std::vector<model::Expression> motion,
                                  std::vector<double> parameters, const jourdain_model_table& table,
@@ -90,6 +98,8 @@ std::vector<LongReal> FollowingInputs::at(const LongReal& t) const {
   if (known_.size() >= kMostKnown) known_.clear();
   return known_[key] = inputs_at<LongReal>(t, *long_table_);
 }
+
+bool FollowingInputs::has_kinks() const { return any_has_kinks(motion_); }
 
 std::vector<double> FollowingInputs::state_at(double t) const {
   std::vector<double> x, z;

@@ -18,6 +18,7 @@ class ExpressionInputs : public Inputs {
 
   std::vector<double> at(double t) const override;
   std::vector<LongReal> at(const LongReal& t) const override;
+  bool has_kinks() const override;
 
  private:
   std::vector<model::Expression> inputs_;
@@ -35,6 +36,7 @@ class FollowingInputs : public Inputs {
 
   std::vector<double> at(double t) const override;
   std::vector<LongReal> at(const LongReal& t) const override;
+  bool has_kinks() const override;
   /// y and z of the motion at time t (s).
   std::vector<double> state_at(double t) const;
 

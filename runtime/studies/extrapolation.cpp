@@ -99,7 +99,7 @@ class Extrapolation {
   static bool is_wild(const Vector& x, const Vector& start) {
     for (std::size_t i = 0; i < x.size(); ++i) {
       const LongReal bound(kWild * (1 + std::fabs(double(start[i]))));
-      if (bound < x[i] || x[i] < -bound) return true;
+      if (!(-bound < x[i] && x[i] < bound)) return true;  // no number is
     }
     return false;
   }
@@ -115,10 +115,13 @@ class Extrapolation {
     return result;
   }
 
+  /// Infinite where an entry is no number.
   static double difference(const Vector& a, const Vector& b) {
     double largest = 0;
-    for (std::size_t i = 0; i < a.size(); ++i)
-      largest = std::max(largest, std::fabs(double(a[i] - b[i])) / (1 + std::fabs(double(a[i]))));
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      const double apart = std::fabs(double(a[i] - b[i])) / (1 + std::fabs(double(a[i])));
+      largest = std::isnan(apart) ? INFINITY : std::max(largest, apart);
+    }
     return largest;
   }
 

@@ -14,6 +14,8 @@ class Inputs {
   virtual ~Inputs() = default;
   virtual std::vector<double> at(double t) const = 0;
   virtual std::vector<LongReal> at(const LongReal& t) const = 0;
+  /// Values or their rates may jump at some times.
+  virtual bool has_kinks() const { return false; }
 };
 
 /// Inputs that do not change.

@@ -113,6 +113,8 @@ double largest_stable_step(const MethodLimit& limit) {
   return limit.observed ? limit.observed->h : INFINITY;
 }
 
+bool is_beyond(const MethodLimit& limit, double h) { return limit.predicts && limit.h > 0 && h > limit.h; }
+
 ModeKind kind_of(Complex mu, const Scene& scene) {
   // Where nothing damps, what decays is the other half of what grows.
   if (!scene.damps)

@@ -52,6 +52,9 @@ struct MethodLimit {
 /// What is known of it, s: predicted, or observed where nothing is; 0: none is stable, infinity: nothing is known.
 double largest_stable_step(const MethodLimit& limit);
 
+/// Is `h` (s) beyond a limit that is predicted? Never where no step is stable: errors show what undamped modes grow by.
+bool is_beyond(const MethodLimit& limit, double h);
+
 ModeKind kind_of(std::complex<double> mu, const Scene& scene);
 
 /// Limits of one method at each of `locals` where they predict anything, and the smallest one that decides;

@@ -25,12 +25,14 @@ constexpr std::size_t kFinerSamples = 8;
 constexpr long kMostEvaluations = 50000000;     ///< where the user insists
 constexpr double kEvaluationsPerInterval = 45;  ///< of extrapolation to kTolerance, about
 
-/// Largest difference of an entry, over 1 + |x|.
+/// Largest difference of an entry, over 1 + |x|; infinite where one is no number.
 template <class Real>
 double difference(const Point<Real>& a, const Point<Real>& b) {
   double largest = 0;
-  for (std::size_t i = 0; i < b.x.size(); ++i)
-    largest = std::max(largest, std::fabs(double(a.x[i] - b.x[i])) / (1 + std::fabs(double(a.x[i]))));
+  for (std::size_t i = 0; i < b.x.size(); ++i) {
+    const double apart = std::fabs(double(a.x[i] - b.x[i])) / (1 + std::fabs(double(a.x[i])));
+    largest = std::isnan(apart) ? INFINITY : std::max(largest, apart);
+  }
   return largest;
 }
 
@@ -115,6 +117,7 @@ std::optional<ReferenceSolution> by_extrapolation(const Flow<LongReal>& flow, do
     for (const LongReal& entry : point.x) rounded.x.push_back(double(entry));
   }
   solution.open = residuals(flow, *exact);
+  solution.digits = InFiftyDigits::kSolved;
   solution.exact = std::move(*exact);
   progress("reference in 50 digits", 1);
   return solution;
@@ -176,6 +179,8 @@ std::optional<ReferenceSolution> reference_at_steps(const Flow<double>& flow,
 ReferenceSolution solve_reference(const Flow<double>& flow, const Flow<LongReal>* long_flow,
                                   ReferenceKind kind, double interval, long count, int halvings,
                                   double seconds, const Progress& progress) {
+  const InFiftyDigits digits =
+      kind == ReferenceKind::kCvode ? InFiftyDigits::kNotTried : InFiftyDigits::kTooCostly;
   if (kind != ReferenceKind::kCvode && long_flow) {
     const bool required = kind == ReferenceKind::kExtrapolation;
     if (auto solution =
@@ -184,7 +189,10 @@ ReferenceSolution solve_reference(const Flow<double>& flow, const Flow<LongReal>
       if (!other) return *solution;
       const Parted apart = parted(*solution, *other, interval, flow.position_count());
       if (apart.largest <= kKnown * other->error + kLeast) return *solution;
-      if (!required) return *other;
+      if (!required) {
+        other->digits = InFiftyDigits::kContradicted;
+        return *other;
+      }
       solution->error = std::max(solution->error, apart.largest);
       solution->position_error = std::max(solution->position_error, apart.position);
       return *solution;
@@ -193,7 +201,10 @@ ReferenceSolution solve_reference(const Flow<double>& flow, const Flow<LongReal>
       throw support::EnvironmentError(
           "the reference in 50 digits takes too many evaluations; try --reference cvode");
   }
-  if (auto solution = by_cvode(flow, interval, count, progress)) return *solution;
+  if (auto solution = by_cvode(flow, interval, count, progress)) {
+    solution->digits = digits;
+    return *solution;
+  }
   throw support::EnvironmentError(
       "CVODE found no reference solution: the motion is not smooth enough, or it ends");
 }

@@ -15,6 +15,9 @@ enum class ReferenceKind { kAutomatic, kExtrapolation, kCvode };
 /// Reports what is being done and how much of it is, from 0 to 1.
 using Progress = std::function<void(const std::string& what, double done)>;
 
+/// What became of the solution in 50 digits. Contradicted: CVODE's is another one.
+enum class InFiftyDigits { kNotTried, kTooCostly, kContradicted, kSolved };
+
 /// States at start.t + k `interval`. Shorter than asked for where solutions with two tolerances part by more
 /// than kParted.
 struct ReferenceSolution {
@@ -22,7 +25,8 @@ struct ReferenceSolution {
   double interval = 0;                 ///< s
   std::vector<Point<double>> points;   ///< rounded to double
   std::vector<Point<LongReal>> exact;  ///< in 50 digits; empty with CVODE
-  Residuals open;                      ///< of the loops, largest at the points
+  InFiftyDigits digits = InFiftyDigits::kNotTried;
+  Residuals open;  ///< of the loops, largest at the points
   double error =
       0;  ///< largest difference of an entry to the solution with the other, looser tolerance, over 1 + |x|
   double position_error = 0;  ///< the same of positions alone, rad or m

@@ -30,6 +30,8 @@ std::string report_text(const ReportHead& head, const jourdain_model_table& tabl
 /// alternatives.csv: as far as the study has them.
 std::vector<support::FileText> report_csv(const ReportHead& head, const jourdain_model_table& table,
                                           const Study& study);
+/// The names of all of them.
+std::vector<std::string> report_csv_names();
 
 std::string report_json(const ReportHead& head, const jourdain_model_table& table, const Study& study);
 

@@ -293,6 +293,11 @@ std::vector<support::FileText> report_csv(const ReportHead& head, const jourdain
   return files;
 }
 
+std::vector<std::string> report_csv_names() {
+  return {"work_precision.csv", "error_sources.csv", "stability.csv", "extremes.csv",
+          "first_kind.csv",     "alternatives.csv",  "loops.csv"};
+}
+
 std::string report_json(const ReportHead& head, const jourdain_model_table& table, const Study& study) {
   const Json report = {{"generator", head.generator},
                        {"name", head.name},

@@ -140,12 +140,17 @@ std::string stiff_text(const jourdain_model_table& table, const Study& study) {
   constexpr double kNear = 0.4;  // of the limit: a recommended step that short is limited by something else
   const MethodLimit* longest = stiff_limit(study.stability);
   if (!longest) return "";
+  std::string recommended;
   if (study.advice) {
-    const double own = largest_stable_step(study.stability.limits[study.advice->method]);
+    const MethodLimit& limit = study.stability.limits[study.advice->method];
+    const double own = largest_stable_step(limit);
     if (std::isfinite(own) && !(study.advice->h > kNear * own)) return "";
+    if (std::isfinite(own) && !limit.implicit && &limit != longest)
+      recommended = fmt::format(", {} h < {}", table.methods[limit.method].name, time_text(own));
   }
-  return fmt::format("stiff: explicit methods need h < {} ({}), whatever the accuracy asked for",
-                     time_text(largest_stable_step(*longest)), table.methods[longest->method].name);
+  return fmt::format("stiff: explicit methods need h < {} ({}){}, whatever the accuracy asked for",
+                     time_text(largest_stable_step(*longest)), table.methods[longest->method].name,
+                     recommended);
 }
 
 std::string stability_csv(const jourdain_model_table& table, const Stability& stability) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "studies/report.hpp"
 
@@ -143,6 +144,37 @@ std::string inputs_text(const Study& study) {
       a.error_held->position);
 }
 
+/// Why nothing is recommended of a study whose reference knows enough.
+std::string nothing_text(const Study& study, const std::string& asked, const std::string& remark) {
+  Question question = study.options.question;
+  if (question.tolerance) *question.tolerance -= study.reference.position_error;
+  std::vector<WorkPoint> within;
+  std::copy_if(study.work.points.begin(), study.work.points.end(), std::back_inserter(within),
+               [&](const WorkPoint& point) { return keeps_within(question, point); });
+  if (within.empty()) return fmt::format("no method and step of this study keep within {}{}", asked, remark);
+  if (question.budget && std::none_of(within.begin(), within.end(), [&](const WorkPoint& point) {
+        return divides_period(question, point.h);
+      }))
+    return fmt::format("within {}: no recommendation, no step of this study that costs no more divides {}{}",
+                       asked, time_text(question.period), remark);
+  return fmt::format("within {}: no recommendation, what keeps within it is unstable{}{}", asked,
+                     question.tolerance ? ", or a shorter step of the same method does not" : "", remark);
+}
+
+std::string digits_text(InFiftyDigits digits) {
+  switch (digits) {
+    case InFiftyDigits::kNotTried:
+      return "no solution in 50 digits (--reference cvode)";
+    case InFiftyDigits::kTooCostly:
+      return "no solution in 50 digits (too costly here)";
+    case InFiftyDigits::kContradicted:
+      return "no solution in 50 digits (CVODE does not agree with it)";
+    case InFiftyDigits::kSolved:
+      break;
+  }
+  return "";
+}
+
 }  // namespace
 
 std::string advice_text(const jourdain_model_table& table, const Study& study) {
@@ -155,12 +187,14 @@ std::string advice_text(const jourdain_model_table& table, const Study& study) {
   if (study.untrusted)
     return fmt::format("within {}: no recommendation, {} at t = {}", asked, study.untrusted->why,
                        time_text(study.untrusted->from));
-  if (!study.advice && question.tolerance && study.reference.position_error >= *question.tolerance)
+  if (!study.advice && question.tolerance && study.reference.position_error >= *question.tolerance) {
+    const InFiftyDigits digits = study.reference.digits;
+    const bool helps = digits == InFiftyDigits::kNotTried || digits == InFiftyDigits::kTooCostly;
     return fmt::format(
-        "within {}: no recommendation, the reference itself is only known to {:.1g}; allow more, or try "
-        "--reference extrapolation (slow)",
-        asked, study.reference.position_error);
-  if (!study.advice) return fmt::format("no method and step of this study keep within {}{}", asked, remark);
+        "within {}: no recommendation, the reference itself is only known to {:.1g}; allow more{}", asked,
+        study.reference.position_error, helps ? ", or try --reference extrapolation (slow)" : "");
+  }
+  if (!study.advice) return nothing_text(study, asked, remark);
   const Advice& a = *study.advice;
   const std::string inputs = inputs_text(study);
   const std::string over =
@@ -179,15 +213,19 @@ bool is_judged_shorter(const Study& study) { return study.judged < 0.999 * study
 
 std::vector<std::string> remarks(const jourdain_model_table& table, const Study& study) {
   std::vector<std::string> list;
+  const double duration = study.options.duration;
   if (is_judged_shorter(study))
     list.push_back(fmt::format(
         "NOT THE WHOLE TIME: beyond {} of {} two reference solutions part by more than {:.0e}: errors are "
         "judged, and a step is recommended, up to there only",
-        time_text(study.judged), time_text(study.options.duration), kParted));
+        time_text(study.judged), time_text(duration), kParted));
   if (study.untrusted)
     list.push_back(
         fmt::format("NOT TO BE TRUSTED from t = {} on: there {} (see closed loops); no step is recommended",
                     time_text(study.untrusted->from), study.untrusted->why));
+  if (study.longer > 1e-3 * duration)
+    list.push_back(fmt::format("the time is {} instead of {}: whole longest steps, four at least",
+                               time_text(duration), time_text(duration - study.longer)));
   list.push_back(fmt::format("reference: {}; its own error is {:.1e} (difference to a looser tolerance)",
                              study.reference.method, study.reference.error));
   if (!study.loops.empty())
@@ -202,8 +240,8 @@ std::vector<std::string> remarks(const jourdain_model_table& table, const Study&
                   growth, time_text(followed), study.divergence.exponent));
   if (study.has_kinks)
     list.push_back(
-        "forces have kinks (if, abs, sign, min, max, floor): a step across one is off in velocity by a share "
-        "of h where "
+        "forces or inputs have kinks (if, abs, sign, min, max, floor): a step across one is off in velocity "
+        "by a share of h where "
         "the force jumps, of h^2 where its slope does, whatever the order of the method");
   double failing = INFINITY;  // shortest of the steps at which nothing works
   for (const double h : study.steps) {
@@ -220,10 +258,11 @@ std::vector<std::string> remarks(const jourdain_model_table& table, const Study&
         "of the "
         "error are not told apart");
   else if (study.reference.exact.empty())
-    list.push_back("no solution in 50 digits (too costly here): the sources of the error are not told apart");
-  if (study.reference.error > 1e-13)
-    list.push_back(fmt::format("errors below {:.0e} say nothing: the reference is no better",
-                               10 * study.reference.error));
+    list.push_back(digits_text(study.reference.digits) + ": the sources of the error are not told apart");
+  if (study.reference.error > 1e-13 && study.reference.position_error > 0)
+    list.push_back(
+        fmt::format("position errors below {:.0e} (rad, m) say nothing: the reference is no better",
+                    10 * study.reference.position_error));
   for (const SourceSummary& s : study.summaries) {
     const std::string name = table.methods[s.method].name;
     double longest = 0;

@@ -192,9 +192,10 @@ Study run_study(const model::Mechanism& mechanism, const model::Tangent& tangent
                 const Progress& progress) {
   Study study;
   study.options = options;
-  study.has_kinks = model::any_force_element(mechanism, [](auto element) {
-    return std::ranges::any_of(element.expressions(), [](const auto* e) { return e->has_kinks(); });
-  });
+  study.has_kinks =
+      given.inputs().has_kinks() || model::any_force_element(mechanism, [](auto element) {
+        return std::ranges::any_of(element.expressions(), [](const auto* e) { return e->has_kinks(); });
+      });
   Flow<double> flow = given;
   if (options.hold_inputs) flow.hold_inputs();
   for (int i = 0; i <= options.halvings; ++i) study.steps.push_back(std::ldexp(options.longest_step, -i));
@@ -202,6 +203,7 @@ Study run_study(const model::Mechanism& mechanism, const model::Tangent& tangent
   const long wanted =
       std::max(kFewestIntervals, static_cast<long>(std::ceil(options.duration / sampling - 1e-9)));
   study.options.duration = static_cast<double>(wanted) * sampling;
+  study.longer = study.options.duration - options.duration;
 
   study.untrusted =
       first_untrusted(flow, study.steps.back(), study.options.duration, study.options.most_open);
@@ -243,7 +245,8 @@ Study run_study(const model::Mechanism& mechanism, const model::Tangent& tangent
         study_extremes(mechanism, tangent, parameters, flow, *long_flow, study.reference, progress);
   if (!study.untrusted && (options.question.tolerance || options.question.budget)) {
     progress("recommendation", 0);
-    study.advice = advise(options.question, study.work, flow, sampling, study.reference, held);
+    study.advice = advise(options.question, study.work, flow, sampling, study.reference, held,
+                          {study.stability.limits, std::ranges::max(study.divergence.growth)});
     if (study.advice)
       study.alternatives = study_alternatives(flow, *study.advice, options.question.tolerance, sampling,
                                               study.reference, options.seconds / 16, progress);

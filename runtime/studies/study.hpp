@@ -21,7 +21,7 @@
 namespace jourdain::studies {
 
 struct StudyOptions {
-  double duration = 2;          ///< s; rounded up to whole longest steps
+  double duration = 2;          ///< s; rounded up to whole longest steps, four at least
   double longest_step = 0.016;  ///< s; also the interval at which errors are taken
   int halvings = 8;             ///< of the longest step down to the shortest
   ReferenceKind reference = ReferenceKind::kAutomatic;
@@ -55,7 +55,8 @@ struct RoundingPoint {
 
 struct Study {
   StudyOptions options;
-  bool has_kinks = false;  ///< of applied forces
+  bool has_kinks = false;  ///< of applied forces or of inputs
+  double longer = 0;       ///< s: what the options' duration was rounded up by
   double judged = 0;       ///< s: duration, or less where the reference solutions part
   Divergence divergence;
   std::vector<double> steps;  ///< s, descending

@@ -192,6 +192,31 @@ TEST(Bench, CountedOperationsAreTheMachinesInstructions) {
 
 #endif
 
+TEST(Bench, OptionsReachTheLinker) {
+  const auto function_with = [](const std::string& flags) {
+    return bench_of("models/pendulum.toml",
+                    {"--compiler", "g++", "--functions", "forward_dynamics", "--flags", flags});
+  };
+  EXPECT_GT(function_with("-fsanitize=address")["functions"][0]["code_bytes"], 0);
+  const json left = function_with("-O2 -flto");
+  EXPECT_EQ(left["functions"][0]["finite_states"], 2);
+  EXPECT_TRUE(left["functions"][0]["code_bytes"].is_null());
+  EXPECT_NE(left["remarks"].dump().find("leaves to the linker (-flto)"), std::string::npos);
+}
+
+#ifdef __x86_64__
+
+TEST(Bench, ArithmeticThatIsNotCountedHasNoFloor) {
+  const json bench = bench_of("models/pendulum.toml", {"--compiler", "g++", "--functions", "forward_dynamics",
+                                                       "--flags", "-O2 -mfpmath=387"});
+  const json& function = bench["functions"][0];
+  EXPECT_TRUE(function["floating_point_instructions"].is_null());
+  EXPECT_FALSE(function["measured"].contains("floor_s"));
+  EXPECT_NE(bench["remarks"].dump().find("x87's registers have no floor"), std::string::npos);
+}
+
+#endif
+
 TEST(Bench, NamesMachineCompilerAndOptions) {
   const support::ProcessResult result =
       bench({"models/pendulum.toml", "--compiler", "clang++", "--flags", "-O1 -fno-math-errno"});
@@ -244,6 +269,12 @@ TEST(Floor, ReadsArithmeticInstructions) {
        {"movsd", "vmovapd", "add", "imul", "mul", "div", "vpaddd", "paddd", "pmulld", "ucomisd", "cvttsd2si",
         "roundsd", "xorpd", "vunpcklpd", "vpermpd", "subq", "vpmuludq", "adds"})
     EXPECT_FALSE(commands::read_instruction(other, "%ymm0,%ymm1")) << other;
+  for (const char* x87 : {"fadd", "fsubrp", "fmull", "fdivs", "fsqrt", "fsincos"}) {
+    EXPECT_TRUE(commands::is_x87_arithmetic(x87)) << x87;
+    EXPECT_FALSE(commands::read_instruction(x87, "%st(1),%st")) << x87;
+  }
+  for (const char* other : {"fldl", "fstpl", "fxch", "fchs", "fucomi", "addsd", "vfmadd231pd"})
+    EXPECT_FALSE(commands::is_x87_arithmetic(other)) << other;
 }
 
 TEST(Floor, IsTheTimeOfTheBusiestUnit) {
@@ -272,14 +303,17 @@ TEST(Floor, StepsAreThoseOfTheFunction) {
   const auto steps = commands::read_steps(
       "finite step 2\nsteps step 9 11\noutside step 4\nat step 401000 2\nat step 401010 4\nat step 401014 "
       "10\n"
-      "steps idle 0 0\noutside idle 0\n",
+      "steps old 5 5\noutside old 0\nat old 401018 2\nsteps idle 0 0\noutside idle 0\n",
       "program:     file format\n\n0000000000401000 <bench::call(int)>:\n  401000:\tmulsd  %xmm0,%xmm1\n\n"
-      "0000000000401010 <step(double)>:\n  401010:\tvaddpd %ymm0,%ymm1,%ymm2\n  401014:\tret\n",
+      "0000000000401010 <step(double)>:\n  401010:\tvaddpd %ymm0,%ymm1,%ymm2\n  401014:\tret\n"
+      "  401018:\tfmulp  %st,%st(1)\n",
       "bench::");
-  ASSERT_EQ(steps.size(), 1u);
+  ASSERT_EQ(steps.size(), 2u);
+  EXPECT_TRUE(steps.at("old").x87);
   const commands::SteppedCalls& step = steps.at("step");
   EXPECT_EQ(step.instructions, (std::vector<double>{8, 10}));
   EXPECT_EQ(step.outside, 2);
+  EXPECT_FALSE(step.x87);
   EXPECT_EQ(step.arithmetic, (commands::ArithmeticCounts{{{Arithmetic::kSum, Width::k256}, 2}}));
 }
 

@@ -281,6 +281,37 @@ TEST(Compile, RefusesFloatsInCThatAConstantIsBeyond) {
          "wrote");
 }
 
+/// C++'s floats are beside doubles, unless they are what is asked for.
+TEST(Compile, TellsNumbersThatFloatHasNoRoomFor) {
+  const support::TemporaryFolder folder;
+  const std::string model = folder.path() + "/scene.toml";
+  const auto run = [&](const std::string& mass, std::vector<std::string> options) {
+    support::write_file(
+        model, "[model]\nname = \"scene\"\n[parameters]\nm = " + mass +
+                   "\n[[body]]\nname = \"b\"\nmass = " + (options.back() == "tunable" ? "\"m\"" : mass) +
+                   "\n[[joint]]\nname = \"j\"\ntype = \"prismatic\"\nparent = \"world\"\nchild = \"b\"\n");
+    options.pop_back();
+    options.insert(options.begin() + 1, model);
+    return jourdain(options);
+  };
+  for (const auto& [mass, what] :
+       {std::pair("1e39", "is beyond the range of float"), std::pair("1e-60", "is zero in float"),
+        std::pair("1e-39", "has few digits in float")}) {
+    const std::string constant = std::string(", ") + what, error = ": error: a constant of the equations, ";
+    const support::ProcessResult both = run(mass, {"check", "fixed"});
+    expect(both, 0, "note: a constant of the equations, ");
+    expect(both, 0, constant);
+    EXPECT_EQ(run(mass, {"check", "--real", "double", "fixed"}).output.find("note:"), std::string::npos);
+    expect(run(mass, {"check", "--real", "float", "fixed"}), 1, error);
+  }
+  expect(run("1e39", {"check", "--real", "float", "tunable"}), 1,
+         "error: parameter 'm', 1e+39, is beyond the range");
+  for (const char* command : {"simulate", "ensemble", "cost"})
+    expect(run("1e-60", {command, "--real", "float", "fixed"}), 1, "is zero in float");
+  expect(run("1e-60", {"report", "-o", folder.path() + "/out", "--real", "float", "fixed"}), 1,
+         "is zero in float");
+}
+
 TEST(Compile, EmitsOnlyWhatWasAskedFor) {
   const support::TemporaryFolder folder;
   expect(jourdain({"compile", "models/pendulum.toml", "-o", folder.path(), "--functions", "rk4_step",
@@ -325,7 +356,9 @@ TEST(Compile, AJointThatMovesNoInertiaIsNamed) {
       model,
       "[model]\nname = \"light\"\n[[body]]\nname = \"a\"\nmass = 0\n[[joint]]\nname = \"idle\"\n"
       "type = \"revolute\"\nparent = \"world\"\nchild = \"a\"\n");
-  expect(jourdain({"check", model}), 1, "joint 'idle' moves no inertia");
+  const support::ProcessResult result = jourdain({"check", model});
+  expect(result, 1, "joint 'idle' moves no inertia");
+  expect(result, 1, "not lost in rounding beside the others");
 }
 
 /// Of a wheel that lies flat the depth is zero, but for the last digits, wherever it goes.
@@ -360,6 +393,22 @@ TEST(Check, WhatHasNoFiniteValuesIsPlaced) {
   expect(place("1.7976931348623157e308", "8", slide), 1, "huge.toml:6:8" + message);
   expect(place("0", "0.01", slide + pushed), 1, "huge.toml:13:9: error: force");
   expect(place("0", "10", slide + pushed), 0, "ok");
+}
+
+/// 1/m is a double, whose further digits are none.
+TEST(Check, ConstantsWithoutDigitsAreNoFaultOfTheCompiler) {
+  const support::TemporaryFolder folder;
+  const std::string model = folder.path() + "/slide.toml";
+  const auto check = [&](const std::string& mass) {
+    support::write_file(model, "[model]\nname = \"slide\"\n[[body]]\nname = \"a\"\nmass = " + mass +
+                                   "\n[[joint]]\nname = \"j\"\nparent = \"world\"\nchild = \"a\"\n"
+                                   "type = \"prismatic\"\nstiffness = 100\ndamping = 1000\n");
+    return jourdain({"check", model});
+  };
+  for (const char* mass : {"1e285", "1e290", "1e306"})
+    expect(check(mass), 1,
+           "so near to the end of the range of double that too few digits are left to validate it");
+  for (const char* mass : {"1e280", "1e-308"}) expect(check(mass), 0, "ok: slide");
 }
 
 TEST(CommandLine, MessagesShowNoControlCharacters) {
@@ -495,6 +544,19 @@ TEST(Simulate, TellsEquationsWithoutValuesFromStepsThatAreTooLong) {
       "[[force]]\nname = \"pull\"\njoint = \"slide\"\nvalue = \"sqrt(0.5 - t)\"\n");
   expect(jourdain({"simulate", path, "--duration", "1", "--output", folder.path() + "/r.csv"}), 1,
          "no finite rates from t = 0.");
+}
+
+TEST(Simulate, InputsAreNumbers) {
+  for (const char* command : {"simulate", "ensemble", "report", "cost"})
+    for (const char* input : {"nan", "inf", "1e400"})
+      expect(jourdain({command, "models/cart_pole.toml", "--constant-input", input}), 2,
+             "error: --constant-input has ");
+  const support::TemporaryFolder folder;
+  const std::string inputs = folder.path() + "/inputs.toml";
+  support::write_file(inputs, "[input]\npush = \"sqrt(-1 - t)\"\n");
+  for (const char* command : {"report", "cost"})
+    expect(jourdain({command, "models/cart_pole.toml", "--inputs", inputs}), 1,
+           "error: the equations of motion have no finite rates at the start: ");
 }
 
 TEST(Simulate, BodiesMayBeThrownFarAway) {

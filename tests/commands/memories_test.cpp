@@ -119,7 +119,7 @@ rate = "third + held"
          ":19:8: error: state 'third' has no finite value at the initial state");
 }
 
-TEST_F(MemoriesOnTheCommandLine, PeriodsAreNotSetToZero) {
+TEST_F(MemoriesOnTheCommandLine, PeriodsThatAreSetToZeroSampleAtEveryStep) {
   const std::string file = folder_.path() + "/counter.toml";
   support::write_file(file, R"toml([model]
 name = "counter"
@@ -147,7 +147,9 @@ value = "count"
     words.emplace_back(sampling);
     return jourdain(words);
   };
-  expect(set("sampling=0"), 2, "the period of count_timer is 0 s at these parameters");
+  expect(set("sampling=0"), 0, "at t = 0.1 s");
+  const std::string rows = support::read_file(csv_);
+  EXPECT_NE(rows.substr(rows.rfind('\n', rows.size() - 2)).find(",100,"), std::string::npos) << rows;
   expect(set("sampling=0.02"), 0, "at t = 0.1 s");
 }
 

@@ -55,6 +55,12 @@ TEST(Options, NumbersArePositiveAndFinite) {
   }
 }
 
+TEST(Options, NamesOfFilesAreNotTooLong) {
+  expect(jourdain({"check", kHinge, "--name", std::string(201, 'a')}), 2,
+         "--name: a name of 201 characters is too long; there may be 200");
+  expect(jourdain({"check", kHinge, "--name", std::string(200, 'a')}), 0, "ok: aaa");
+}
+
 TEST(Options, NumbersInARangeAreNumbers) {
   for (const std::string wrong : {"nan", "-1", "1"})
     expect(jourdain({"check", kHinge, "--snap", wrong}), 2,

@@ -320,8 +320,13 @@ TEST(Report, InputsThatAreHeldCostAnOrder) {
             100 * advice["largest_error"]["position"].get<double>());
   EXPECT_NE(text.find("held over each step, position error"), std::string::npos);
   EXPECT_GT(advice["step_s"].get<double>(), 0.017);  // beyond the longest step that was named
+  const fs::path out = folder.path() + "/out";
+  for (const char* name : {"report.html", "error_sources.csv", "error_sources_rk4.svg", "mine.csv"})
+    support::write_file((out / name).string(), "of an older report, or mine");
   const auto [held, held_text] = report({"--hold-inputs"});
   EXPECT_TRUE(held["recommendation"]["inputs_held"].get<bool>());
+  for (const fs::path& file : fs::directory_iterator(out))
+    EXPECT_EQ(held_text.find(file.string()) != std::string::npos, file.filename() != "mine.csv") << file;
   EXPECT_LE(held["recommendation"]["largest_error"]["position"].get<double>(), 1e-3);
   for (const json& method : held["methods"]) EXPECT_NEAR(method["measured_order"].get<double>(), 1, 0.1);
 }

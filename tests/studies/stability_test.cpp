@@ -288,6 +288,63 @@ TEST(Stability, ReportSaysThatTheGovernorIsStiff) {
       std::any_of(files.begin(), files.end(), [](const auto& f) { return f.name == "stability.csv"; }));
 }
 
+/// A damper at rest that is far faster than the oscillation.
+constexpr const char* kRestingDamper = R"(
+[model]
+name = "resting_damper"
+gravity = [0, 0, 0]
+[[body]]
+name = "a"
+mass = 1
+[[body]]
+name = "b"
+mass = 1
+[[joint]]
+name = "x"
+type = "prismatic"
+parent = "world"
+child = "a"
+axis = [1, 0, 0]
+stiffness = 4
+initial_position = 0.1
+[[joint]]
+name = "y"
+type = "prismatic"
+parent = "a"
+child = "b"
+axis = [0, 1, 0]
+stiffness = 100
+damping = 1000
+)";
+
+/// No inputs, which have kinks.
+class KinkedInputs : public ConstantInputs {
+ public:
+  KinkedInputs() : ConstantInputs({}) {}
+  bool has_kinks() const override { return true; }
+};
+
+TEST(Study, RecommendsStableStepsAndKnowsTheKinksOfInputs) {
+  const EmittedModel model = emitted_from(kRestingDamper, commands::loadable_functions({"euler", "rk5"}));
+  const KinkedInputs none;
+  const Flow<double> flow(model.table(), none);
+  StudyOptions options;
+  options.duration = 1;
+  options.halvings = 4;
+  options.reference = ReferenceKind::kCvode;
+  options.question.tolerance = 1e-5;
+  options.forms = false;
+  const Study study = run_study(model.mechanism, model.tangent, {}, flow, nullptr, nullptr, options, kSilent);
+  EXPECT_TRUE(study.has_kinks);
+  EXPECT_NEAR(study.longer, 0.008, 1e-12);  // 63 steps of 16 ms
+  ASSERT_TRUE(study.advice);
+  const MethodLimit& limit = study.stability.limits[study.advice->method];
+  ASSERT_TRUE(limit.predicts);
+  EXPECT_LE(study.advice->h, limit.h);
+  EXPECT_TRUE(study.advice->confirmed);
+  EXPECT_THAT(advice_text(model.table(), study), testing::HasSubstr("stiff: explicit methods need h < "));
+}
+
 #endif
 
 }  // namespace

@@ -1,16 +1,22 @@
 // Parts of a study against an oscillator whose solution is known.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <complex>
 
+#include "model/read/read.hpp"
 #include "studies/advice.hpp"
 #include "studies/cvode.hpp"
+#include "studies/driven_inputs.hpp"
 #include "studies/error_sources.hpp"
 #include "studies/extrapolation.hpp"
+#include "studies/report.hpp"
 #include "studies/sensitivity.hpp"
 #include "studies/study.hpp"
 #include "studies/tables.hpp"
+#include "support/check.hpp"
+#include "support/files.hpp"
 
 namespace jourdain::tests {
 namespace {
@@ -63,6 +69,30 @@ TEST(Cvode, GivesTheCosine) {
   for (const Point<double>& point : *points) EXPECT_NEAR(point.x[0], std::cos(point.t), 1e-10);
 }
 
+/// A push that ends to be a number after a while.
+class EndingForce : public studies::Inputs {
+ public:
+  explicit EndingForce(double end) : end_(end) {}
+  std::vector<double> at(double t) const override { return {t < end_ ? 0 : NAN}; }
+  std::vector<LongReal> at(const LongReal& t) const override { return {LongReal(at(double(t))[0])}; }
+
+ private:
+  double end_;
+};
+
+TEST(ReferenceSolution, IsNoneWhereRatesAreNoNumbers) {
+  for (const double end : {0.0, 1.0}) {
+    const EndingForce push(end);
+    const Flow<double> flow(oscillator(0.0), push);
+    const Flow<LongReal> long_flow(oscillator(LongReal()), push);
+    EXPECT_FALSE(solved_by_cvode(flow, flow.start(), 0.25, 8, 1e-12)) << end;
+    EXPECT_FALSE(extrapolated(long_flow, long_flow.start(), 0.25, 8, {.tolerance = 1e-30})) << end;
+    EXPECT_THROW(solve_reference(flow, &long_flow, ReferenceKind::kAutomatic, kSampling, 32, 3, 2, kSilent),
+                 support::EnvironmentError)
+        << end;
+  }
+}
+
 TEST(ReferenceSolution, StatesAnErrorThatCoversTheTrueOne) {
   const NoForce none;
   const Flow<double> flow(oscillator(0.0), none);
@@ -76,9 +106,13 @@ TEST(ReferenceSolution, StatesAnErrorThatCoversTheTrueOne) {
   EXPECT_LT(exact.error, 1e-18);
   EXPECT_GT(exact.position_error, 0);
   EXPECT_LE(exact.position_error, 2 * exact.error);  // |x| is at most 1
+  EXPECT_EQ(exact.digits, InFiftyDigits::kSolved);
   const ReferenceSolution cheap =
       solve_reference(flow, nullptr, ReferenceKind::kAutomatic, kSampling, 32, 3, 2, kSilent);
   EXPECT_TRUE(cheap.exact.empty());
+  EXPECT_EQ(cheap.digits, InFiftyDigits::kTooCostly);
+  EXPECT_EQ(solve_reference(flow, &long_flow, ReferenceKind::kCvode, kSampling, 32, 3, 2, kSilent).digits,
+            InFiftyDigits::kNotTried);
   EXPECT_LE(std::fabs(cheap.points.back().x[0] - std::cos(2.0)), 20 * cheap.error + 1e-15);
 }
 
@@ -235,6 +269,53 @@ TEST(Advice, IsNotGivenWithinWhatTheReferenceDoesNotKnow) {
   EXPECT_FALSE(advise({1e-6, {}}, work, study.flow, kSampling, rough, {0}));
 }
 
+TEST(Advice, StaysWithinThePredictedLimitOfTheMethod) {
+  Oscillator study;
+  const WorkPrecision work = study.work();
+  MotionFacts facts;
+  facts.limits.resize(2);
+  MethodLimit& limit = facts.limits[1];
+  const auto step = [&](double h, bool predicts) {
+    limit.h = h;
+    limit.predicts = predicts;
+    const auto advice = advise({1e-3, {}}, work, study.flow, kSampling, study.reference, {0}, facts);
+    return advice && advice->method == 1 ? advice->h : 0;
+  };
+  EXPECT_DOUBLE_EQ(step(kSampling / 2.9, true), kSampling / 3);
+  EXPECT_GE(step(kSampling / 2.9, false), kSampling);
+  EXPECT_GE(step(0, true), kSampling);  // undamped: the error shows what it grows by
+  EXPECT_EQ(step(kSampling / 100, true), 0);
+  Question budget;
+  budget.budget = 1.0;
+  budget.period = kSampling;
+  limit.h = kSampling / 100;
+  const auto advice = advise(budget, work, study.flow, kSampling, study.reference, {0}, facts);
+  ASSERT_TRUE(advice);
+  EXPECT_EQ(advice->method, 0u);
+  EXPECT_FALSE(advice->runner_up);
+}
+
+TEST(Advice, IsNotGivenWhereAShorterStepMissesTheTolerance) {
+  Oscillator study;
+  WorkPrecision work = study.work();
+  const auto step = [&](const MotionFacts& facts = {}) {
+    const auto advice = advise({1e-3, {}}, work, study.flow, kSampling, study.reference, {0}, facts);
+    return advice ? advice->h : 0;
+  };
+  EXPECT_GE(step(), kSampling);
+  WorkPoint &second = work.points[6], &last = work.points[9];
+  ASSERT_EQ(second.h, kSampling / 2);
+  second.largest.position = 2e-3;
+  EXPECT_GE(step(), kSampling / 4);
+  EXPECT_LT(step(), kSampling / 2);
+  last.largest.position = 2e-3;
+  EXPECT_EQ(step(), 0);
+  EXPECT_GE(step({{}, 1e12}), kSampling);  // rounding may be off by that
+  second.largest.position = last.largest.position = 5e-4;
+  study.reference.position_error = 9e-4;
+  EXPECT_GE(step(), kSampling);  // the reference may be, too
+}
+
 TEST(Advice, IsTheMostAccurateWithinABudget) {
   Oscillator study;
   const WorkPrecision work = study.work();
@@ -244,6 +325,109 @@ TEST(Advice, IsTheMostAccurateWithinABudget) {
   const auto advice = advise(question, work, study.flow, kSampling, study.reference, {0});
   ASSERT_TRUE(advice);
   for (const WorkPoint& point : work.points) EXPECT_LE(advice->error.position, point.largest.position);
+  ASSERT_TRUE(advice->runner_up);
+  EXPECT_NE(advice->runner_up->method, advice->method);
+}
+
+/// Of the oscillator's table, without points.
+Study without_advice(const Question& question) {
+  Study study;
+  study.options.question = question;
+  study.judged = study.options.duration;
+  study.divergence.growth = {1};
+  study.reference.method = "CVODE";
+  return study;
+}
+
+TEST(AdviceText, SaysWhyNothingIsRecommended) {
+  Study study = without_advice({{}, 300e-9, 0.7e-3});
+  study.work.points.resize(1);
+  WorkPoint& point = study.work.points.front();
+  const auto text = [&study] { return advice_text(oscillator(0.0), study); };
+  point.h = 1e-3;
+  point.run_time = 1;
+  EXPECT_EQ(text(), "no method and step of this study keep within 300 ns per 700 us");
+  point.run_time = 1e-6;
+  EXPECT_EQ(text(),
+            "within 300 ns per 700 us: no recommendation, no step of this study that costs no more divides "
+            "700 us");
+  point.h = 0.1e-3;
+  EXPECT_EQ(text(), "within 300 ns per 700 us: no recommendation, what keeps within it is unstable");
+  study.options.question = {1e-3, {}};
+  EXPECT_THAT(text(), testing::EndsWith("is unstable, or a shorter step of the same method does not"));
+  point.largest.position = 2e-3;
+  EXPECT_THAT(text(), testing::HasSubstr("no method and step"));
+}
+
+TEST(AdviceText, SuggestsNoReferenceThatWasTaken) {
+  Study study = without_advice({1e-6, {}});
+  study.reference.position_error = 1;
+  const auto suggestion = testing::HasSubstr("--reference extrapolation");
+  EXPECT_THAT(advice_text(oscillator(0.0), study), suggestion);
+  study.reference.digits = InFiftyDigits::kSolved;
+  EXPECT_THAT(advice_text(oscillator(0.0), study), testing::Not(suggestion));
+}
+
+TEST(StiffText, NamesTheLimitOfTheRecommendedMethodToo) {
+  Study study;
+  study.stability.rate = 1;
+  study.stability.limits.resize(2);
+  for (const std::size_t m : {0u, 1u}) {
+    MethodLimit& limit = study.stability.limits[m];
+    limit.method = m;
+    limit.h = m == 0 ? 2e-3 : 3.3e-3;
+    limit.mode = -1000;
+    limit.predicts = true;
+  }
+  study.advice.emplace().h = 2e-3;
+  EXPECT_EQ(
+      stiff_text(oscillator(0.0), study),
+      "stiff: explicit methods need h < 3.3 ms (fourth), first h < 2 ms, whatever the accuracy asked for");
+  study.advice->method = 1;
+  EXPECT_EQ(stiff_text(oscillator(0.0), study),
+            "stiff: explicit methods need h < 3.3 ms (fourth), whatever the accuracy asked for");
+}
+
+TEST(Remarks, SayWhatBecameOfFiftyDigits) {
+  Study study = without_advice({});
+  const auto expect = [&study](InFiftyDigits digits, const std::string& part) {
+    study.reference.digits = digits;
+    EXPECT_THAT(remarks(oscillator(0.0), study), testing::Contains(testing::HasSubstr(part)));
+  };
+  expect(InFiftyDigits::kNotTried, "no solution in 50 digits (--reference cvode)");
+  expect(InFiftyDigits::kTooCostly, "no solution in 50 digits (too costly here)");
+  expect(InFiftyDigits::kContradicted, "no solution in 50 digits (CVODE does not agree with it)");
+}
+
+TEST(Remarks, StateErrorsOfPositionsInTheirUnit) {
+  Study study = without_advice({});
+  study.reference.error = 5e-12;
+  study.reference.position_error = 2e-6;
+  EXPECT_THAT(remarks(oscillator(0.0), study),
+              testing::Contains(testing::HasSubstr("position errors below 2e-05 (rad, m) say nothing")));
+}
+
+TEST(Remarks, SayThatTheTimeIsLongerThanAskedFor) {
+  Study study = without_advice({});
+  const auto longer = testing::Contains(testing::HasSubstr("the time is 2 s instead of 1 ms: whole"));
+  EXPECT_THAT(remarks(oscillator(0.0), study), testing::Not(longer));
+  study.longer = 2 - 1e-3;
+  EXPECT_THAT(remarks(oscillator(0.0), study), longer);
+}
+
+TEST(ExpressionInputs, HaveKinksWhereAnExpressionOfTimeHas) {
+  support::Diagnostics description(
+      "cart_pole.toml", support::read_file(std::string(JOURDAIN_SOURCE_DIR) + "/models/cart_pole.toml"));
+  const auto mechanism = model::read_mechanism(description);
+  ASSERT_TRUE(mechanism);
+  const auto has_kinks = [&mechanism](const std::string& push) {
+    support::Diagnostics text("push.toml", "[input]\npush = \"" + push + "\"\n");
+    const auto scenario = model::read_scenario(text, *mechanism);
+    return scenario && ExpressionInputs(scenario->inputs, {}).has_kinks();
+  };
+  for (const char* push : {"if(t<0.5037, 1, -2)", "abs(t - 1)", "min(t, 1)", "floor(2*t)"})
+    EXPECT_TRUE(has_kinks(push)) << push;
+  for (const char* push : {"2*sin(5*t)", "max(1, 2)*t"}) EXPECT_FALSE(has_kinks(push)) << push;
 }
 
 }  // namespace

@@ -63,6 +63,17 @@ TEST_F(Files, AreWrittenTogether) {
   EXPECT_EQ(entries(), 1u);
 }
 
+TEST_F(Files, ThatAreStaleAreRemovedOnceTheOthersAreWritten) {
+  write_files(path("new"), {{"a", "1"}, {"b", "2"}, {"c", "3"}});
+  std::filesystem::create_directory(path("new/folder"));
+  EXPECT_THROW(write_files(path("new"), {{"folder", "4"}}, {"b"}), EnvironmentError);
+  EXPECT_EQ(read_file(path("new/b")), "2");
+  write_files(path("new"), {{"a", "4"}}, {"b", "folder", "missing"});
+  EXPECT_FALSE(std::filesystem::exists(path("new/b")));
+  EXPECT_EQ(read_file(path("new/a")) + read_file(path("new/c")), "43");
+  EXPECT_TRUE(std::filesystem::is_directory(path("new/folder")));
+}
+
 TEST_F(Files, LeaveNothingWhereTheLastOneCannotBeWritten) {
   std::filesystem::create_directories(path("folder/b"));
   EXPECT_THROW(write_files(path("folder"), {{"a", "1"}, {"b", "2"}}), EnvironmentError);

@@ -133,11 +133,11 @@ std::string closing_text(const LoopPlan& plan) {
   return "";
 }
 
-std::string assembly_text(const LoopPlan& plan) {
+std::string assembly_text(const std::vector<Moved>& moved, const std::string& where) {
   std::string text;
-  for (const Moved& moved : plan.moved)
-    text += fmt::format("note: the loops close with {}{} = {:.10g} instead of {:.10g}\n", moved.coordinate,
-                        moved.velocity ? "'s velocity" : "", moved.to, moved.from);
+  for (const Moved& each : moved)
+    text += fmt::format("note: {}the loops close with {}{} = {:.10g} instead of {:.10g}\n", where,
+                        each.coordinate, each.velocity ? "'s velocity" : "", each.to, each.from);
   return text;
 }
 

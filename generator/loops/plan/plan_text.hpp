@@ -14,7 +14,7 @@ std::vector<std::string> sentences(const model::Mechanism& mechanism, const Loop
 /// What brings a step's end back to the closed loops: "2 Newton iterations".
 std::string closing_text(const LoopPlan& plan);
 
-/// What the assembly moved, for a person; empty where nothing moved.
-std::string assembly_text(const LoopPlan& plan);
+/// What the assembly moved, for a person; empty where nothing moved. `where`: "at these parameters ".
+std::string assembly_text(const std::vector<Moved>& moved, const std::string& where = "");
 
 }  // namespace jourdain::loops
