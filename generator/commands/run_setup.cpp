@@ -171,7 +171,12 @@ std::vector<double> start_at_settings(const RunModel& model) {
     mechanism.parameters[i].value = model.parameters[i];
   support::Diagnostics diagnostics("--set", "");
   const std::optional<loops::Start> start = loops::planned_start(mechanism, *plan, diagnostics);
-  if (!start) return {};  // what does not close is told where the run looks at its start
+  if (!start) {  // what does not close is told where the run looks at its start
+    fmt::print(stderr,
+               "note: at these parameters the loops do not leave the start as it is given: it is that of the "
+               "default values, closed\n");
+    return {};
+  }
   fmt::print(stderr, "{}", loops::assembly_text(start->moved, "at these parameters "));
   std::vector<double> x(start->configuration.y.begin(), start->configuration.y.end());
   const Eigen::VectorXd given = reference::Reference<double>(mechanism, model.parameters).initial_state().z;

@@ -128,7 +128,8 @@ Real cosine(const Angle<Real>& x) noexcept {
 }
 )";
 
-constexpr const char* kNearby = R"(#if defined(__GNUC__) && defined(__x86_64__) && !defined(__INTEL_COMPILER) && !defined(__CUDA__) && !defined(__CUDACC__)
+constexpr const char* kNearby =
+    R"(#if defined(__GNUC__) && defined(__x86_64__) && !defined(__INTEL_COMPILER) && !defined(__CUDA__) && !defined(__CUDACC__)
 #define JOURDAIN_NEARBY
 #endif
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
