@@ -32,7 +32,8 @@ TEST(RotationMatrix, OfQuarterTurnsInDoubleIsAPermutation) {
 }
 
 TEST(RotationMatrix, OfAnEighthOfATurnHasEqualEntries) {
-  for (const double eighth : {0.7853981633974483, -0.78539816339744828, 2.3561944901923448, -8.6393797973719322}) {
+  for (const double eighth :
+       {0.7853981633974483, -0.78539816339744828, 2.3561944901923448, -8.6393797973719322}) {
     Statements statements;
     const Matrix3 R = rotation_matrix(rotation(0, 0, eighth), {}, true, statements);
     const GiNaC::numeric c = GiNaC::ex_to<GiNaC::numeric>(R[0][0]), s = GiNaC::ex_to<GiNaC::numeric>(R[1][0]);
