@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
 
 #include "compile/expected_text.hpp"
 #include "compile/link_by_link.hpp"
@@ -87,25 +88,43 @@ std::string lost_digits(const ir::Module& module) {
   return "";
 }
 
-/// What float does to a number of double; empty: it rounds it.
-std::string misfit(double value) {
+/// What float does to a number of double; empty: not that.
+using Misfit = std::string (*)(double);
+
+std::string overflow(double value) {
+  return std::isinf(static_cast<float>(value)) ? "is beyond the range of float" : "";
+}
+
+std::string underflow(double value) {
   const auto narrow = static_cast<float>(value);
-  if (std::isinf(narrow)) return "is beyond the range of float";
   if (value == 0 || !(std::fabs(narrow) < std::numeric_limits<float>::min())) return "";
   return narrow == 0 ? "is zero in float" : "has few digits in float, near to the end of its range";
 }
 
-/// A sentence on the first constant or parameter that float has no room for; empty: there is none.
-std::string find_misfit(const ir::Module& module, const programs::SceneFacts& scene) {
+/// A sentence on the first constant or parameter that has this misfit; empty: there is none.
+std::string find_number(const ir::Module& module, const programs::SceneFacts& scene, Misfit misfit) {
   for (const double literal : literals_of(module))
     if (const std::string what = misfit(literal); !what.empty())
       return fmt::format("a constant of the equations, {}, {}", literal, what);
   for (const model::Parameter& parameter : scene.parameters)
     if (const std::string what = misfit(parameter.value); !what.empty())
       return fmt::format("parameter '{}', {}, {}", parameter.name, parameter.value, what);
-  for (const std::uint32_t array : emit::arrays_in(module))
-    if (emit::overflows_float(array)) return "a number of a table is beyond the range of float";
   return "";
+}
+
+/// A sentence on the first number that is infinite as a float; empty: there is none.
+std::string find_overflow(const ir::Module& module, const programs::SceneFacts& scene) {
+  std::string number = find_number(module, scene, overflow);
+  const std::set<std::uint32_t> arrays = emit::arrays_in(module);
+  if (number.empty() && std::any_of(arrays.begin(), arrays.end(), emit::overflows_float))
+    number = "a number of a table is beyond the range of float";
+  return number;
+}
+
+/// The same, or on one that float has few digits for.
+std::string find_misfit(const ir::Module& module, const programs::SceneFacts& scene) {
+  const std::string number = find_overflow(module, scene);
+  return number.empty() ? find_number(module, scene, underflow) : number;
 }
 
 }  // namespace
@@ -192,7 +211,7 @@ void validate_and_emit(const model::Mechanism& mechanism, const Equations& equat
   }
   const emit::ModelText text = model_text(mechanism, options, result);
   const bool in_c = options.choices.language == ir::Language::kC;
-  if (in_c && options.choices.has_float && emit::c::overflows_float(text, result.module)) {
+  if (in_c && options.choices.has_float && !find_overflow(result.module, result.facts).empty()) {
     result.verdict.failures = {
         "a constant of the equations is beyond the range of float; --real double writes no floats"};
     result.verdict.overflows = 1;

@@ -559,6 +559,31 @@ TEST(Simulate, InputsAreNumbers) {
            "error: the equations of motion have no finite rates at the start: ");
 }
 
+/// An arm of 13 links with no direction in common, whose values go through windows of memory.
+TEST(Simulate, LongFunctionsKeepTheEnergy) {
+  const support::TemporaryFolder folder;
+  const std::string path = folder.path() + "/arm.toml", csv = folder.path() + "/run.csv";
+  std::string text = "[model]\nname = \"arm\"\n";
+  for (int i = 0; i < 13; ++i)
+    text += fmt::format(
+        "[[body]]\nname = \"link{0}\"\nmass = 1\ncenter_of_mass = [0.05, 0.02, 0.01]\n"
+        "inertia = [0.01, 0.02, 0.015]\n[[joint]]\nname = \"joint{0}\"\ntype = \"revolute\"\n"
+        "parent = \"{1}\"\nchild = \"link{0}\"\nposition = [0.1, 0.03, 0.02]\nrpy = [0.4, 0.5, 0.6]\n"
+        "axis = [0, 0, 1]\ninitial_position = 0.3\n",
+        i, i == 0 ? "world" : fmt::format("link{}", i - 1));
+  support::write_file(path, text);
+  expect(
+      jourdain({"compile", path, "-o", folder.path(), "--functions", "forward_dynamics", "--real", "double"}),
+      0, "read back from the files");
+  EXPECT_NE(support::read_file(folder.path() + "/arm_kernels.hpp").find("= detail::nearby("),
+            std::string::npos);
+  const support::ProcessResult run =
+      jourdain({"simulate", path, "--duration", "0.05", "--step", "5e-4", "--output", csv});
+  expect(run, 0, " J, drift ");
+  const std::string opening = " J, drift ";
+  EXPECT_LT(std::stod(run.output.substr(run.output.find(opening) + opening.size())), 1e-8) << run.output;
+}
+
 TEST(Simulate, BodiesMayBeThrownFarAway) {
   const support::TemporaryFolder folder;
   const std::string path = folder.path() + "/thrown.toml";

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <map>
 #include <set>
 
@@ -311,22 +310,6 @@ std::vector<File> model_files(const ModelText& model, const std::vector<Function
   }
   files.push_back({model.name + ".json", manifest(model, functions, module, steps)});
   return files;
-}
-
-bool overflows_float(const ModelText& model, const ir::Module& module) {
-  const auto is_beyond = [](double value) { return std::isinf(static_cast<float>(value)); };
-  const auto has_literal = [&](const ir::Program& program) {
-    return std::any_of(program.nodes.begin(), program.nodes.end(), [&](const ir::Node& node) {
-      return node.op == ir::Op::kLiteral && is_beyond(node.literal);
-    });
-  };
-  const std::set<std::uint32_t> arrays = arrays_in(module);
-  return has_literal(module.constants) ||
-         std::any_of(arrays.begin(), arrays.end(),
-                     [](std::uint32_t array) { return emit::overflows_float(array); }) ||
-         std::any_of(module.functions.begin(), module.functions.end(), has_literal) ||
-         std::any_of(model.facts.parameters.begin(), model.facts.parameters.end(),
-                     [&](const model::Parameter& parameter) { return is_beyond(parameter.value); });
 }
 
 }  // namespace jourdain::emit::c

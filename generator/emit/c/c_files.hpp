@@ -12,7 +12,4 @@ namespace jourdain::emit::c {
 std::vector<File> model_files(const ModelText& model, const std::vector<programs::FunctionInfo>& functions,
                               const ir::Module& module);
 
-/// Is some literal of the programs, or a default value, beyond the range of float?
-bool overflows_float(const ModelText& model, const ir::Module& module);
-
 }  // namespace jourdain::emit::c
