@@ -56,7 +56,17 @@ void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
   c = cosine(x);
 }
 
-template <class Real> JOURDAIN_FUNCTION
+// Steps compute short functions in themselves, where stages would wait for numbers that the one before has written. Where code shall be
+// small, and on processors that write and read one number at a time, they are called.
+#if !defined(JOURDAIN_INLINED)
+#if defined(__GNUC__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__) && (defined(__x86_64__) || defined(__aarch64__))
+#define JOURDAIN_INLINED inline __attribute__((always_inline))
+#else
+#define JOURDAIN_INLINED
+#endif
+#endif
+
+template <class Real> JOURDAIN_FUNCTION JOURDAIN_INLINED
 void accelerations(const Model<Real>& model, const State<Real>& stage, const Input<Real>& input,
                    Real (&zdot)[2]) noexcept {
   forward_dynamics(model, stage, input, zdot);
@@ -134,7 +144,7 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   q[1] = q_1;
 }
 
-template <class Real> JOURDAIN_FUNCTION
+template <class Real> JOURDAIN_FUNCTION JOURDAIN_INLINED
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Real (&zdot)[2])
     noexcept {
   const Real pulley_leftx0_z = state.y[0] - Real(3.0);

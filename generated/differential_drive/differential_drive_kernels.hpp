@@ -152,6 +152,16 @@ void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
   c = cosine(x);
 }
 
+// Steps compute short functions in themselves, where stages would wait for numbers that the one before has written. Where code shall be
+// small, and on processors that write and read one number at a time, they are called.
+#if !defined(JOURDAIN_INLINED)
+#if defined(__GNUC__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__) && (defined(__x86_64__) || defined(__aarch64__))
+#define JOURDAIN_INLINED inline __attribute__((always_inline))
+#else
+#define JOURDAIN_INLINED
+#endif
+#endif
+
 // Inputs at a stage: held over the step, or sampled there.
 template <class Real> JOURDAIN_FUNCTION
 const Input<Real>& input_at(const Input<Real>& held, const State<Real>&) noexcept {
@@ -162,7 +172,7 @@ Input<Real> input_at(const InputAt& sampled, const State<Real>& stage) noexcept 
   return sampled(stage);
 }
 
-template <class Real, class Inputs> JOURDAIN_FUNCTION
+template <class Real, class Inputs> JOURDAIN_FUNCTION JOURDAIN_INLINED
 void accelerations(const Model<Real>& model, const State<Real>& stage, const Inputs& input,
                    Real (&zdot)[2]) noexcept {
   forward_dynamics(model, stage, input_at(input, stage), zdot);
@@ -212,7 +222,7 @@ State<Real> initial_state(const Model<Real>&) noexcept {
   return initial;
 }
 
-template <class Real> JOURDAIN_FUNCTION
+template <class Real> JOURDAIN_FUNCTION JOURDAIN_INLINED
 void position_rate(const Model<Real>& model, const State<Real>& state, Real (&ydot)[5]) noexcept {
   Real s2, c2;
   detail::sine_cosine(state.y[2], s2, c2);
@@ -259,7 +269,7 @@ void q_bar(const Model<Real>&, const State<Real>&, const Input<Real>& input, Rea
   q[1] = -input.u[1];
 }
 
-template <class Real> JOURDAIN_FUNCTION
+template <class Real> JOURDAIN_FUNCTION JOURDAIN_INLINED
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[2]) noexcept {
   Real s2, c2;
@@ -340,7 +350,7 @@ Real potential_energy(const Model<Real>&, const State<Real>&) noexcept {
   return Real(0.0);
 }
 
-template <class Real> JOURDAIN_FUNCTION
+template <class Real> JOURDAIN_FUNCTION JOURDAIN_INLINED
 void close_loops(const Model<Real>& model, State<Real>& state) noexcept {
   State<Real> closed = state;
   closed.regularity = model.c10;

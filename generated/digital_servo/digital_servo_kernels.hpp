@@ -193,6 +193,16 @@ void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
   c = cosine(x);
 }
 
+// Steps compute short functions in themselves, where stages would wait for numbers that the one before has written. Where code shall be
+// small, and on processors that write and read one number at a time, they are called.
+#if !defined(JOURDAIN_INLINED)
+#if defined(__GNUC__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__) && (defined(__x86_64__) || defined(__aarch64__))
+#define JOURDAIN_INLINED inline __attribute__((always_inline))
+#else
+#define JOURDAIN_INLINED
+#endif
+#endif
+
 // Inputs at a stage: held over the step, or sampled there.
 template <class Real> JOURDAIN_FUNCTION
 const Input<Real>& input_at(const Input<Real>& held, const State<Real>&) noexcept {
@@ -203,7 +213,7 @@ Input<Real> input_at(const InputAt& sampled, const State<Real>& stage) noexcept 
   return sampled(stage);
 }
 
-template <class Real, class Inputs> JOURDAIN_FUNCTION
+template <class Real, class Inputs> JOURDAIN_FUNCTION JOURDAIN_INLINED
 void accelerations(const Model<Real>& model, const State<Real>& stage, const Inputs& input,
                    Real (&zdot)[6]) noexcept {
   forward_dynamics(model, stage, input_at(input, stage), zdot);
@@ -244,7 +254,7 @@ State<Real> initial_state(const Model<Real>&) noexcept {
   return initial;
 }
 
-template <class Real> JOURDAIN_FUNCTION
+template <class Real> JOURDAIN_FUNCTION JOURDAIN_INLINED
 void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[1]) noexcept {
   ydot[0] = state.z[0];
 }
@@ -296,7 +306,7 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   q[5] = Real(0.0);
 }
 
-template <class Real> JOURDAIN_FUNCTION
+template <class Real> JOURDAIN_FUNCTION JOURDAIN_INLINED
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Real (&zdot)[6])
     noexcept {
   const Real c0 = detail::cosine(state.y[0]);

@@ -392,6 +392,16 @@ Real cosine(const Angle<Real>& x) noexcept {
   return c;
 }
 
+// Steps compute short functions in themselves, where stages would wait for numbers that the one before has written. Where code shall be
+// small, and on processors that write and read one number at a time, they are called.
+#if !defined(JOURDAIN_INLINED)
+#if defined(__GNUC__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__) && (defined(__x86_64__) || defined(__aarch64__))
+#define JOURDAIN_INLINED inline __attribute__((always_inline))
+#else
+#define JOURDAIN_INLINED
+#endif
+#endif
+
 // Inputs at a stage: held over the step, or sampled there.
 template <class Real> JOURDAIN_FUNCTION
 const Input<Real>& input_at(const Input<Real>& held, const State<Real>&) noexcept {
@@ -1664,7 +1674,7 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
   result.wheel_travel = -expression;
 }
 
-template <class Real> JOURDAIN_FUNCTION
+template <class Real> JOURDAIN_FUNCTION JOURDAIN_INLINED
 void close_loops(const Model<Real>& model, State<Real>& state) noexcept {
   State<Real> closed = state;
   Real t1, t2;

@@ -412,7 +412,17 @@ Real cosine(const Angle<Real>& x) noexcept {
   return c;
 }
 
-template <class Real> JOURDAIN_FUNCTION
+// Steps compute short functions in themselves, where stages would wait for numbers that the one before has written. Where code shall be
+// small, and on processors that write and read one number at a time, they are called.
+#if !defined(JOURDAIN_INLINED)
+#if defined(__GNUC__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__) && (defined(__x86_64__) || defined(__aarch64__))
+#define JOURDAIN_INLINED inline __attribute__((always_inline))
+#else
+#define JOURDAIN_INLINED
+#endif
+#endif
+
+template <class Real> JOURDAIN_FUNCTION JOURDAIN_INLINED
 void accelerations(const Model<Real>& model, const State<Real>& stage, const Input<Real>& input,
                    Real (&zdot)[6]) noexcept {
   forward_dynamics(model, stage, input, zdot);
@@ -583,7 +593,7 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   q[5] = -q_5;
 }
 
-template <class Real> JOURDAIN_FUNCTION
+template <class Real> JOURDAIN_FUNCTION JOURDAIN_INLINED
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Real (&zdot)[6])
     noexcept {
   Real t2, t3, t4, t5, t17, t18, t25, t26;

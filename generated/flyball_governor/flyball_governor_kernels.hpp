@@ -340,7 +340,17 @@ inline void sine_cosine3(const float& x0, float& s0, float& c0,
 #endif
 #endif
 
-template <class Real> JOURDAIN_FUNCTION
+// Steps compute short functions in themselves, where stages would wait for numbers that the one before has written. Where code shall be
+// small, and on processors that write and read one number at a time, they are called.
+#if !defined(JOURDAIN_INLINED)
+#if defined(__GNUC__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__) && (defined(__x86_64__) || defined(__aarch64__))
+#define JOURDAIN_INLINED inline __attribute__((always_inline))
+#else
+#define JOURDAIN_INLINED
+#endif
+#endif
+
+template <class Real> JOURDAIN_FUNCTION JOURDAIN_INLINED
 void accelerations(const Model<Real>& model, const State<Real>& stage, const Input<Real>& input,
                    Real (&zdot)[4]) noexcept {
   forward_dynamics(model, stage, input, zdot);
@@ -453,7 +463,7 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   q[3] = q_3;
 }
 
-template <class Real> JOURDAIN_FUNCTION
+template <class Real> JOURDAIN_FUNCTION JOURDAIN_INLINED
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Real (&zdot)[4])
     noexcept {
   Real s0, c0, s2, c2, s3, c3;

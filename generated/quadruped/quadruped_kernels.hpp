@@ -408,6 +408,16 @@ struct LanesOf<4, float> {
 template <int N, class Real>
 using Lanes = typename LanesOf<N, Real>::Type;
 
+// Steps compute short functions in themselves, where stages would wait for numbers that the one before has written. Where code shall be
+// small, and on processors that write and read one number at a time, they are called.
+#if !defined(JOURDAIN_INLINED)
+#if defined(__GNUC__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__) && (defined(__x86_64__) || defined(__aarch64__))
+#define JOURDAIN_INLINED inline __attribute__((always_inline))
+#else
+#define JOURDAIN_INLINED
+#endif
+#endif
+
 // Inputs at a stage: held over the step, or sampled there.
 template <class Real> JOURDAIN_FUNCTION
 const Input<Real>& input_at(const Input<Real>& held, const State<Real>&) noexcept {
@@ -485,7 +495,7 @@ State<Real> initial_state(const Model<Real>&) noexcept {
   return initial;
 }
 
-template <class Real> JOURDAIN_FUNCTION
+template <class Real> JOURDAIN_FUNCTION JOURDAIN_INLINED
 void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[19]) noexcept {
   const Real half_0_0 = state.z[3] * Real(0.5);
   const Real half_0_1 = Real(0.5) * state.z[4];

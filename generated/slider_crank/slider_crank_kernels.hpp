@@ -327,6 +327,16 @@ inline void sine_cosine2(const float& x0, float& s0, float& c0,
 #endif
 #endif
 
+// Steps compute short functions in themselves, where stages would wait for numbers that the one before has written. Where code shall be
+// small, and on processors that write and read one number at a time, they are called.
+#if !defined(JOURDAIN_INLINED)
+#if defined(__GNUC__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__) && (defined(__x86_64__) || defined(__aarch64__))
+#define JOURDAIN_INLINED inline __attribute__((always_inline))
+#else
+#define JOURDAIN_INLINED
+#endif
+#endif
+
 // Inputs at a stage: held over the step, or sampled there.
 template <class Real> JOURDAIN_FUNCTION
 const Input<Real>& input_at(const Input<Real>& held, const State<Real>&) noexcept {
@@ -337,7 +347,7 @@ Input<Real> input_at(const InputAt& sampled, const State<Real>& stage) noexcept 
   return sampled(stage);
 }
 
-template <class Real, class Inputs> JOURDAIN_FUNCTION
+template <class Real, class Inputs> JOURDAIN_FUNCTION JOURDAIN_INLINED
 void accelerations(const Model<Real>& model, const State<Real>& stage, const Inputs& input,
                    Real (&zdot)[1]) noexcept {
   forward_dynamics(model, stage, input_at(input, stage), zdot);
@@ -368,7 +378,7 @@ State<Real> initial_state(const Model<Real>&) noexcept {
   return initial;
 }
 
-template <class Real> JOURDAIN_FUNCTION
+template <class Real> JOURDAIN_FUNCTION JOURDAIN_INLINED
 void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[3]) noexcept {
   Real s0, c0, t4, t5;
   detail::sine_cosine2(state.y[0], s0, c0, state.y[1], t4, t5);
@@ -452,7 +462,7 @@ void q_bar(const Model<Real>&, const State<Real>& state, const Input<Real>& inpu
       piston_pinbx_y)) * q_2));
 }
 
-template <class Real> JOURDAIN_FUNCTION
+template <class Real> JOURDAIN_FUNCTION JOURDAIN_INLINED
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[1]) noexcept {
   Real s0, c0, t4, t5;
@@ -582,7 +592,7 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
       state.z[0]);
 }
 
-template <class Real> JOURDAIN_FUNCTION
+template <class Real> JOURDAIN_FUNCTION JOURDAIN_INLINED
 void close_loops(const Model<Real>&, State<Real>& state) noexcept {
   State<Real> closed = state;
   Real t1, t2;

@@ -279,7 +279,17 @@ inline void sine_cosine3(const float& x0, float& s0, float& c0,
 #endif
 #endif
 
-template <class Real> JOURDAIN_FUNCTION
+// Steps compute short functions in themselves, where stages would wait for numbers that the one before has written. Where code shall be
+// small, and on processors that write and read one number at a time, they are called.
+#if !defined(JOURDAIN_INLINED)
+#if defined(__GNUC__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__) && (defined(__x86_64__) || defined(__aarch64__))
+#define JOURDAIN_INLINED inline __attribute__((always_inline))
+#else
+#define JOURDAIN_INLINED
+#endif
+#endif
+
+template <class Real> JOURDAIN_FUNCTION JOURDAIN_INLINED
 void accelerations(const Model<Real>& model, const State<Real>& stage, const Input<Real>& input,
                    Real (&zdot)[1]) noexcept {
   forward_dynamics(model, stage, input, zdot);
@@ -304,7 +314,7 @@ State<Real> initial_state(const Model<Real>&) noexcept {
   return initial;
 }
 
-template <class Real> JOURDAIN_FUNCTION
+template <class Real> JOURDAIN_FUNCTION JOURDAIN_INLINED
 void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[3]) noexcept {
   Real s0, c0, t4, t5, s2, c2;
   detail::sine_cosine3(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], s2, c2);
@@ -388,7 +398,7 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   q[0] = -(t26 * q_2 - (t22 * ((c2 * pinbx1_y - pinbx1_x * s2) * h1b_x) - (h1b_x - h0b_x)) * Real(9.81));
 }
 
-template <class Real> JOURDAIN_FUNCTION
+template <class Real> JOURDAIN_FUNCTION JOURDAIN_INLINED
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Real (&zdot)[1])
     noexcept {
   Real s0, c0, t4, t5, s2, c2;
@@ -540,7 +550,7 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
   result.far_pin.rotation[2][2] = Real(1.0);
 }
 
-template <class Real> JOURDAIN_FUNCTION
+template <class Real> JOURDAIN_FUNCTION JOURDAIN_INLINED
 void close_loops(const Model<Real>&, State<Real>& state) noexcept {
   State<Real> closed = state;
   Real s0, c0;

@@ -152,7 +152,17 @@ void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
   c = cosine(x);
 }
 
-template <class Real> JOURDAIN_FUNCTION
+// Steps compute short functions in themselves, where stages would wait for numbers that the one before has written. Where code shall be
+// small, and on processors that write and read one number at a time, they are called.
+#if !defined(JOURDAIN_INLINED)
+#if defined(__GNUC__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__) && (defined(__x86_64__) || defined(__aarch64__))
+#define JOURDAIN_INLINED inline __attribute__((always_inline))
+#else
+#define JOURDAIN_INLINED
+#endif
+#endif
+
+template <class Real> JOURDAIN_FUNCTION JOURDAIN_INLINED
 void accelerations(const Model<Real>& model, const State<Real>& stage, const Input<Real>& input,
                    Real (&zdot)[3]) noexcept {
   forward_dynamics(model, stage, input, zdot);
@@ -219,7 +229,7 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   q[2] = q_2;
 }
 
-template <class Real> JOURDAIN_FUNCTION
+template <class Real> JOURDAIN_FUNCTION JOURDAIN_INLINED
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Real (&zdot)[3])
     noexcept {
   const Real push0_0 = state.y[0] * model.k + state.z[0] * model.expression_2;

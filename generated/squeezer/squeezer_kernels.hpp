@@ -472,6 +472,16 @@ inline void sine_cosine4(const float& x0, float& s0, float& c0,
 #endif
 #endif
 
+// Steps compute short functions in themselves, where stages would wait for numbers that the one before has written. Where code shall be
+// small, and on processors that write and read one number at a time, they are called.
+#if !defined(JOURDAIN_INLINED)
+#if defined(__GNUC__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__) && (defined(__x86_64__) || defined(__aarch64__))
+#define JOURDAIN_INLINED inline __attribute__((always_inline))
+#else
+#define JOURDAIN_INLINED
+#endif
+#endif
+
 template <class Real> JOURDAIN_FUNCTION
 void accelerations(const Model<Real>& model, const State<Real>& stage, const Input<Real>& input,
                    Real (&zdot)[1]) noexcept {
@@ -501,7 +511,7 @@ State<Real> initial_state(const Model<Real>&) noexcept {
   return initial;
 }
 
-template <class Real> JOURDAIN_FUNCTION
+template <class Real> JOURDAIN_FUNCTION JOURDAIN_INLINED
 void position_rate(const Model<Real>&, const State<Real>& state, Real (&ydot)[7]) noexcept {
   Real s0, c0, t4, t5, s2, c2, s3, c3;
   detail::sine_cosine4(state.y[0], s0, c0, state.y[1], t4, t5, state.y[2], s2, c2, state.y[3], s3, c3);
@@ -1095,7 +1105,7 @@ void outputs(const Model<Real>&, const State<Real>& state, const Input<Real>&, O
   result.common_pin.rotation[2][2] = Real(1.0);
 }
 
-template <class Real> JOURDAIN_FUNCTION
+template <class Real> JOURDAIN_FUNCTION JOURDAIN_INLINED
 void close_loops(const Model<Real>&, State<Real>& state) noexcept {
   State<Real> closed = state;
   Real t1, t2;

@@ -39,9 +39,9 @@ std::string LoopGuard::problem(const studies::Point<double>& point) const {
   if (closing.opening <= flow_.table().greatest_opening) return "";
   if (!(closing.left_open <= std::max(kOpen, kRoundings * flow_.table().unit_roundoff)))
     return fmt::format(
-        "at t = {:g} s a step of {:g} s is too long: closing the loops leaves them open by {:.2g} m; take "
-        "shorter steps",
-        point.t, h_, closing.left_open);
+        "at t = {:g} s closing the loops leaves them open by {:.2g} m: a step of {:g} s is too long (take a "
+        "shorter one), or there is no way on: no positions close them",
+        point.t, closing.left_open, h_);
   if (!loaded_.plan()->proof) return "";
   return fmt::format(
       "at t = {:g} s a step of {:g} s is too long: closing the loops moved positions by {:.2g} (rad, m), "

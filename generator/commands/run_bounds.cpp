@@ -150,8 +150,11 @@ std::string breach_text(const Flow<double>& flow, const model::Tangent& tangent,
   std::string why = step_limit_text(flow, flow.start(), tangent, method, h);
   if (why.empty()) why = step_limit_text(flow, breach.last, tangent, method, h);
   const std::string verdict =
-      why.empty() ? "may be too long"
-                  : fmt::format("is too long: {}; take a shorter one or --method rodas4", why);
+      why.empty()
+          ? "may be too long"
+          : fmt::format(
+                "is too long: {}; take a shorter one or --method rodas4{}", why,
+                flow.table().constraint_count == 0 ? "" : "; or the loops cannot be closed from there on");
   return fmt::format("error: the run leaves all bounds at t = {:g} s: {}\n  a step of {:g} s {}\n",
                      breach.end.t, breach.what, h, verdict);
 }

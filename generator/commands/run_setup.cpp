@@ -22,6 +22,7 @@
 #include "reference/minimal.hpp"
 #include "studies/driven_inputs.hpp"
 #include "support/files.hpp"
+#include "support/float_range.hpp"
 
 namespace jourdain::commands {
 
@@ -31,15 +32,22 @@ bool ends_with(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
+/// False after a message where a number of the command line has no room in the run's number type.
+bool fits(const std::string& option, double value, const std::string& real) {
+  const std::string misfit = real == "float" ? support::float_misfit(value) : "";
+  if (!misfit.empty()) fmt::print(stderr, "error: {}: {} {}\n", option, value, misfit);
+  return misfit.empty();
+}
+
 /// False after a message where a setting is no known NAME=VALUE.
-bool apply_settings(const std::vector<std::string>& settings, const model::Mechanism& mechanism,
+bool apply_settings(const RunArguments& arguments, const model::Mechanism& mechanism,
                     std::vector<double>& values) {
   std::vector<std::string> names;
   for (const model::Parameter& parameter : mechanism.parameters) {
     names.push_back(parameter.name);
     values.push_back(parameter.value);
   }
-  for (const std::string& setting : settings) {
+  for (const std::string& setting : arguments.settings) {
     const std::size_t equals = setting.find('=');
     const std::string name = setting.substr(0, equals);
     const auto found = std::find(names.begin(), names.end(), name);
@@ -66,6 +74,7 @@ bool apply_settings(const std::vector<std::string>& settings, const model::Mecha
                  (*range)[0], (*range)[1]);
       return false;
     }
+    if (!fits("--set " + setting, value, arguments.real)) return false;
     values[index] = value;
   }
   return true;
@@ -134,7 +143,7 @@ std::optional<RunModel> read_run(const RunArguments& arguments, int& status) {
   model.loaded.options.choices.own_sines = !arguments.libm;
   model.loaded.options.choices.lanes = !arguments.no_lanes;
   status = kUsage;
-  if (!apply_settings(arguments.settings, model.loaded.mechanism, model.parameters)) return {};
+  if (!apply_settings(arguments, model.loaded.mechanism, model.parameters)) return {};
   if (const loops::LoopPlan* plan = model.loaded.plan())
     if (const auto failure = loops::unproven_at(model.loaded.mechanism, *plan, model.parameters)) {
       fmt::print(stderr, "error: --set: {}\n", *failure);
@@ -147,6 +156,8 @@ std::optional<RunModel> read_run(const RunArguments& arguments, int& status) {
       fmt::print(stderr, "error: --constant-input has {}: numbers are expected\n", input);
       return {};
     }
+  for (const double input : arguments.constant_input)
+    if (!fits("--constant-input", input, arguments.real)) return {};
   const std::size_t inputs = model::lay_out_coordinates(model.loaded.mechanism).input_count();
   if (!arguments.constant_input.empty() && arguments.constant_input.size() != inputs) {
     fmt::print(stderr, "error: --constant-input has {} values, the model has {} inputs\n",

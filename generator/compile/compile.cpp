@@ -24,6 +24,7 @@
 #include "programs/like_limbs.hpp"
 #include "programs/tree_functions.hpp"
 #include "reference/massless.hpp"
+#include "support/float_range.hpp"
 #include "validate/loops/validation.hpp"
 
 namespace jourdain {
@@ -91,16 +92,6 @@ std::string lost_digits(const ir::Module& module) {
 /// What float does to a number of double; empty: not that.
 using Misfit = std::string (*)(double);
 
-std::string overflow(double value) {
-  return std::isinf(static_cast<float>(value)) ? "is beyond the range of float" : "";
-}
-
-std::string underflow(double value) {
-  const auto narrow = static_cast<float>(value);
-  if (value == 0 || !(std::fabs(narrow) < std::numeric_limits<float>::min())) return "";
-  return narrow == 0 ? "is zero in float" : "has few digits in float, near to the end of its range";
-}
-
 /// A sentence on the first constant or parameter that has this misfit; empty: there is none.
 std::string find_number(const ir::Module& module, const programs::SceneFacts& scene, Misfit misfit) {
   for (const double literal : literals_of(module))
@@ -114,7 +105,7 @@ std::string find_number(const ir::Module& module, const programs::SceneFacts& sc
 
 /// A sentence on the first number that is infinite as a float; empty: there is none.
 std::string find_overflow(const ir::Module& module, const programs::SceneFacts& scene) {
-  std::string number = find_number(module, scene, overflow);
+  std::string number = find_number(module, scene, support::float_overflow);
   const std::set<std::uint32_t> arrays = emit::arrays_in(module);
   if (number.empty() && std::any_of(arrays.begin(), arrays.end(), emit::overflows_float))
     number = "a number of a table is beyond the range of float";
@@ -124,7 +115,7 @@ std::string find_overflow(const ir::Module& module, const programs::SceneFacts& 
 /// The same, or on one that float has few digits for.
 std::string find_misfit(const ir::Module& module, const programs::SceneFacts& scene) {
   const std::string number = find_overflow(module, scene);
-  return number.empty() ? find_number(module, scene, underflow) : number;
+  return number.empty() ? find_number(module, scene, support::float_underflow) : number;
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ void expect_loops(const model::Mechanism& mechanism, const loops::LoopPlan& plan
 readback::ExpectedKinematics expected_kinematics(const model::KinematicFunction& function,
                                                  const programs::SceneFacts& facts) {
   readback::ExpectedKinematics expected{function.name,
-                                        model::takes_acceleration(function),
+                                        model::takes_acceleration(function) && !facts.velocities.empty(),
                                         facts.motions_take_inputs && model::holds_accelerations(function),
                                         {}};
   for (const model::KinematicQuantity quantity : function.quantities)

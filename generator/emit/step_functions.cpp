@@ -20,7 +20,7 @@ bool any_step(const std::vector<programs::FunctionInfo>& functions) {
 /// At a stage.
 Function accelerations(const programs::SceneFacts& scene) {
   const Expression model = name("model"), stage = name("stage"), zdot = name("zdot");
-  return {"accelerations",
+  return {kAccelerations,
           "",
           {{struct_type("Model"), "model"},
            {struct_type("State"), "stage"},

@@ -20,6 +20,9 @@ struct Support {
 Support step_support(const programs::SceneFacts& scene, const std::vector<programs::FunctionInfo>& functions,
                      const ir::Module& module);
 
+/// Of the function that steps call at their stages.
+inline constexpr const char* kAccelerations = "accelerations";
+
 Function step_function(const programs::SceneFacts& scene, const programs::FunctionInfo& function);
 
 /// Structs of what methods remember; empty where none is emitted.

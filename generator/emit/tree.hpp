@@ -194,6 +194,7 @@ struct Function {
   std::optional<Type> result = {};  ///< nothing, a real or a struct
   Statements body = {};
   bool only_sampled = false;  ///< does nothing where inputs are held over a step
+  bool is_inlined = false;    ///< compiled into whatever calls it
 };
 
 /// Members declared together, e.g. five arrays of one length.

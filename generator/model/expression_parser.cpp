@@ -216,9 +216,10 @@ class Parser : public ExpressionDimensions {
       if (entry.refusal.empty()) known.push_back(entry.name);
     const std::string close = support::nearest(word, known);
     fail(begin, word.size(), fmt::format("unknown name '{}'", support::shown(word)),
-         !close.empty() ? fmt::format("did you mean '{}'?", close)
-         : word == "t"  ? "time may not be used here"
-                        : "declare it in [parameters]");
+         !close.empty()               ? fmt::format("did you mean '{}'?", close)
+         : word == "t"                ? "time may not be used here"
+         : word.starts_with("world.") ? "the world does not move: positions are measured in it"
+                                      : "declare it in [parameters]");
   }
 
   Term function(std::string_view word, std::size_t begin, int depth) {

@@ -47,8 +47,7 @@ constexpr auto kRows = std::to_array<QuantityRow>({
     {KinematicQuantity::kJacobian, "jacobian", true, true, false, false, kJacobian,
      "J: Jacobian of '{}', velocity = J z, linear rows before angular rows."},
     {KinematicQuantity::kJacobianBias, "jacobian_bias", true, true, false, true, kJacobianBias,
-     "bias: acceleration of '{}' at zdot = 0, so that acceleration = J zdot + bias: the Jacobian's rate "
-     "times z."},
+     "bias: acceleration of '{}' at zdot = 0, so that acceleration = J zdot + bias."},
     {KinematicQuantity::kCenterOfMass, "center_of_mass", false, false, false, false, kCenterOfMass,
      "center_of_mass: of all bodies, in world axes, m."},
     {KinematicQuantity::kCenterOfMassJacobian, "center_of_mass_jacobian", false, false, false, false,

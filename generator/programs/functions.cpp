@@ -350,7 +350,8 @@ std::vector<FunctionInfo> kinematic_functions(const SceneFacts& scene) {
     info.kinematic = k;
     for (const model::KinematicQuantity quantity : scene.kinematics[k].quantities) {
       const model::QuantityRow& row = model::quantity_row(quantity);
-      info.takes_acceleration = info.takes_acceleration || row.takes_acceleration;
+      const bool given = row.takes_acceleration && !scene.velocities.empty();
+      info.takes_acceleration = info.takes_acceleration || given;
       info.holds_accelerations = info.holds_accelerations || row.holds_accelerations;
       for (const model::KinematicArray& array : row.arrays) info.arrays.push_back(array_result(array));
     }

@@ -13,6 +13,8 @@ namespace jourdain::readback {
 
 /// Stands in front of every function; empty unless somebody defines it.
 inline constexpr std::string_view kFunctionMacro = "JOURDAIN_FUNCTION";
+/// In front of what steps compute in themselves.
+inline constexpr std::string_view kInlinedMacro = "JOURDAIN_INLINED";
 
 /// What C text is read for.
 struct CText {

@@ -158,6 +158,15 @@ constexpr const char* kWindow = R"(template <class Window> JOURDAIN_FUNCTION
 inline Window& nearby(Window& window) noexcept { return window; }
 )";
 
+constexpr const char* kInlined = R"(#if !defined(JOURDAIN_INLINED)
+#if defined(__GNUC__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__) && (defined(__x86_64__) || defined(__aarch64__))
+#define JOURDAIN_INLINED inline __attribute__((always_inline))
+#else
+#define JOURDAIN_INLINED
+#endif
+#endif
+)";
+
 // Of packs: numbers, sines and cosines that a pack may bring itself.
 constexpr const char* kNumbers = R"(namespace detail {
 
@@ -285,6 +294,7 @@ const std::vector<KnownText>& known_texts(bool packs) {
     list.push_back(known("detail", "", own_arctangent(), library_arctangent()));
     list.push_back(known("detail", kLanesType, lanes_text()));
     list.push_back(known("detail", "", kNearby, kWindow));
+    list.push_back(known("detail", "", kInlined));
     add_choosing_texts(list, false);
     return list;
   }();
@@ -298,6 +308,7 @@ const std::vector<KnownText>& known_texts(bool packs) {
     list.push_back(known("detail", "", own_arctangent(), library_arctangent()));
     list.push_back(known("detail", kLanesType, lanes_text()));
     list.push_back(known("detail", "", kNearby, kWindow));
+    list.push_back(known("detail", "", kInlined));
     list.push_back(known("", "", kNumbers));
     list.push_back(known("", "", kNumberOfTime));
     list.push_back(known("detail", "", kNumberOfAngle));

@@ -145,6 +145,7 @@ class FileParser : public StatementParser {
 
   void function_or_constant(Function& function) {
     const bool is_function = accept_word(kFunctionMacro), is_inline = accept_word("inline");
+    if (is_function) accept_word(kInlinedMacro);
     if (!is_function) {
       expect_word("constexpr");
       return constant(is_inline);

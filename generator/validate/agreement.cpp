@@ -73,7 +73,8 @@ bool Agreement::agree(const std::vector<ScaledReal>& values, const std::vector<S
 }
 
 void Agreement::same(const std::string& function, const std::string& oracle,
-                     const std::vector<ScaledReal>& values, const std::vector<ScaledReal>& expected) {
+                     const std::vector<ScaledReal>& values, const std::vector<ScaledReal>& expected,
+                     long double allowed) {
   JD_CHECK(values.size() == expected.size(), "{}: {} numbers for {}", function, values.size(),
            expected.size());
   Compared& c = record(function, oracle);
@@ -92,7 +93,7 @@ void Agreement::same(const std::string& function, const std::string& oracle,
       worst = i;
     }
   c.algebra = std::max(c.algebra, most);
-  if (most <= static_cast<double>(kAlgebra)) return;
+  if (most <= static_cast<double>(allowed)) return;
   fail(fmt::format("{} is not {}: number {} is {:.6g} instead of {:.6g}, off by {:.1g} of its scale",
                    function, oracle, worst + 1, static_cast<double>(values[worst]),
                    static_cast<double>(expected[worst]), most));

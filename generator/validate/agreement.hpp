@@ -37,9 +37,9 @@ class Agreement {
   static bool agree(const std::vector<ScaledReal>& values, const std::vector<ScaledReal>& expected);
   /// All numbers of `function` at one state, in 77 digits. Where one of both is zero throughout, as in a
   /// mechanism that starts in equilibrium, what is left of zero has no scale but that of the states before:
-  /// such a state comes last.
+  /// such a state comes last. `allowed`: the share of their scale that they may differ by.
   void same(const std::string& function, const std::string& oracle, const std::vector<ScaledReal>& values,
-            const std::vector<ScaledReal>& expected);
+            const std::vector<ScaledReal>& expected, long double allowed = kAlgebra);
   /// Errors of `values`, computed in double by a program of this depth, against the exact ones. Scales are
   /// those of `expected`: of another way to compute the same, `oracle`; the program's own, `exact`, count up
   /// to 1e4 times the largest of those.

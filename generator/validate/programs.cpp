@@ -136,7 +136,7 @@ void compare_programs(const ir::Module& module, const Point& point, const Oracle
       }
       for (std::size_t i = 0; i < values.size() && expected[k].scales_are_unknown; ++i)
         values[i] = values[i].with_scale(computed[k].values[i].scale());
-      agreement.same(computed[k].name, expected[k].oracle, computed[k].values, values);
+      agreement.same(computed[k].name, expected[k].oracle, computed[k].values, values, expected[k].allowed);
       agreement.rounded(computed[k].name, expected[k].oracle, doubles[k].values, same_state[k].values, values,
                         first + depth(program));
     }

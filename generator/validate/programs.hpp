@@ -46,6 +46,8 @@ struct Expected {
   double largest_share = 1;
   /// What it may be as well, by another rule.
   std::function<Expected()> otherwise = {};
+  /// The share of their scale that numbers of the program may differ by.
+  long double allowed = kAlgebra;
 };
 
 /// Of a program with one part.

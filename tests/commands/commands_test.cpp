@@ -312,6 +312,20 @@ TEST(Compile, TellsNumbersThatFloatHasNoRoomFor) {
          "is zero in float");
 }
 
+TEST(Options, OfRunsInFloatAreNumbersThatFloatHasRoomFor) {
+  const auto run = [](std::vector<std::string> options) {
+    options.insert(options.begin(),
+                   {"simulate", "models/cart_pole.toml", "--duration", "0.1", "--step", "0.01"});
+    return jourdain(options);
+  };
+  expect(run({"--real", "float", "--set", "pole_mass=1e-42"}), 2,
+         "error: --set pole_mass=1e-42: 1e-42 has few digits in float");
+  expect(run({"--real", "float", "--set", "cart_mass=1e39"}), 2, "1e+39 is beyond the range of float");
+  expect(run({"--real", "float", "--constant-input", "1e39"}), 2,
+         "error: --constant-input: 1e+39 is beyond the range of float");
+  expect(run({"--set", "pole_mass=1e-42"}), 0, "hinge");
+}
+
 TEST(Compile, EmitsOnlyWhatWasAskedFor) {
   const support::TemporaryFolder folder;
   expect(jourdain({"compile", "models/pendulum.toml", "-o", folder.path(), "--functions", "rk4_step",

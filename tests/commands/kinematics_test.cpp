@@ -120,5 +120,22 @@ TEST_F(Kinematics, OnlyWhatIsAskedForIsEmitted) {
   EXPECT_THAT(header, HasSubstr("Pinocchio: LOCAL;"));
 }
 
+/// Accelerations follow from time there, and nothing is given.
+TEST_F(Kinematics, OfWhatOnlyMovesAsPrescribedTakeNoAccelerations) {
+  const std::string model = in_folder("rod.toml");
+  support::write_file(model,
+                      "[model]\nname = \"rod\"\n[[body]]\nname = \"b\"\nmass = 1\n[[joint]]\nname = "
+                      "\"j\"\ntype = \"prismatic\"\nparent = \"world\"\nchild = \"b\"\nmotion = "
+                      "\"0.1*sin(t)\"\n[[kinematics]]\nname = \"tip\"\nframe = \"b\"\nquantities = "
+                      "[\"acceleration\", \"imu\"]\n");
+  for (const std::string language : {"c++", "c"}) {
+    const support::ProcessResult result =
+        run({JOURDAIN_BINARY, "compile", model, "-o", folder_.path(), "--language", language});
+    ASSERT_EQ(result.status, 0) << result.output;
+  }
+  EXPECT_THAT(support::read_file(in_folder("rod.hpp")),
+              HasSubstr("void tip_acceleration(const Model<Real>& model, const State<Real>& state, Real"));
+}
+
 }  // namespace
 }  // namespace jourdain::tests

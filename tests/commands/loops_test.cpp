@@ -425,8 +425,45 @@ TEST(LoopCommands, ARunEndsWhereAStepAcrossASingularConfigurationOpensTheLoops) 
     return jourdain({"simulate", folder.path() + "/rocking.toml", "--set", "length=0.9", "--duration", "2",
                      "--step", step, "--output", folder.path() + "/o.csv"});
   };
-  expect(run("1e-3"), 1, " s is too long: closing the loops leaves them open by ");
+  expect(run("1e-3"), 1, "closing the loops leaves them open by ");
   expect(run("5e-5"), 0, "loops open by ");
+}
+
+/// A heavy body that a rod locks stays where it is, though what hangs on it weighs a four millionth.
+TEST(LoopCommands, MultipliersHoldHeavyBodiesBesideLightOnes) {
+  const support::TemporaryFolder folder;
+  const std::string csv = folder.path() + "/run.csv";
+  expect(jourdain({"simulate", "tests/loops/scenes/far_apart.toml", "--duration", "0.1", "--output", csv}), 0,
+         "loops open by ");
+  EXPECT_LT(std::fabs(at_start(support::read_file(csv), "turning.omega_dot[2]")), 1e-12);
+}
+
+/// Light couplers hold a crank and a rocker together: by how much less than they are held at all.
+TEST(LoopCommands, MultipliersGoAsIndependentCoordinatesDoOrRefuse) {
+  const support::TemporaryFolder folder;
+  const std::string text = support::read_file(std::string(JOURDAIN_SOURCE_DIR) + "/models/four_bar.toml");
+  const auto run = [&](const std::string& mass, const std::string& treatment) {
+    std::string model = text;
+    const auto replace = [&model](const std::string& from, const std::string& to) {
+      model.replace(model.find(from), from.size(), to);
+    };
+    replace("mass = 0.72", "mass = " + mass);
+    replace("treatment = \"explicit\"\nindependent = [\"crank\"]", "treatment = \"" + treatment + "\"");
+    support::write_file(folder.path() + "/four_bar.toml", model);
+    return jourdain({"simulate", folder.path() + "/four_bar.toml", "--duration", "1", "--output",
+                     folder.path() + "/" + treatment + ".csv"});
+  };
+  for (const std::string mass : {"1e-5", "1e-9"}) {
+    std::vector<double> last;
+    for (const std::string treatment : {"explicit", "multipliers"}) {
+      expect(run(mass, treatment), 0, "");
+      const std::string csv = support::read_file(folder.path() + "/" + treatment + ".csv");
+      last.push_back(std::stod(csv.substr(csv.find(',', csv.rfind('\n', csv.size() - 2)) + 1)));
+    }
+    EXPECT_NEAR(last[0], last[1], 1e-8) << mass;
+  }
+  expect(run("1e-13", "explicit"), 0, "");
+  expect(run("1e-13", "multipliers"), 1, "error: multipliers cannot hold these constraints");
 }
 
 TEST(LoopCommands, HeadersSayForWhichParametersLoopsAreProven) {

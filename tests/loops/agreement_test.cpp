@@ -249,7 +249,8 @@ TEST(Loops, RobotsAccelerateAndLoadAsTheDescriptorFormSays) {
 /// three spheres.
 TEST(Loops, ClosedFormsInSpaceAgreeWithTheDescriptorForm) {
   Tally tally;
-  for (const char* name : {"chassis_corner", "tunable_corner", "strut_with_slide", "delta_leg"}) {
+  for (const char* name :
+       {"chassis_corner", "tunable_corner", "strut_with_slide", "delta_leg", "mounted_universal"}) {
     SCOPED_TRACE(name);
     const model::Mechanism mechanism =
         read_model(fmt::format("{}/tests/loops/scenes/{}.toml", JOURDAIN_SOURCE_DIR, name));
@@ -258,7 +259,7 @@ TEST(Loops, ClosedFormsInSpaceAgreeWithTheDescriptorForm) {
     compare(mechanism, std::nullopt, *states, tally);
   }
   print("closed forms in space", tally);
-  EXPECT_EQ(tally.treatments[0], 4u);
+  EXPECT_EQ(tally.treatments[0], 5u);
 }
 
 }  // namespace

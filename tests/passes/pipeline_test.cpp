@@ -91,7 +91,7 @@ TEST(Passes, AreIdempotentAndKeepProgramsSoundOnEveryModel) {
     if (entry.path().extension() == ".toml") paths.insert(entry.path());
   std::size_t number = 0;
   for (const std::filesystem::path& path : paths) {
-    if (!tests::draws(number++, 3)) continue;
+    if (!tests::draws(number++, 6)) continue;
     const model::Mechanism mechanism = tests::read_model(path);
     const History passed = history(mechanism);
     ASSERT_GT(passed.modules.size(), pipeline().size()) << path;

@@ -14,7 +14,11 @@ namespace {
 
 using Access = Parameter::Access;
 
-const std::string kTemplate = "template <class Real> JOURDAIN_FUNCTION\n";
+/// What stands in front of a function, or of one that the compiler puts into what calls it.
+std::string opening(const Function& function, const char* parameters) {
+  return fmt::format("template <{}> JOURDAIN_FUNCTION{}\n", parameters,
+                     function.is_inlined ? " JOURDAIN_INLINED" : "");
+}
 
 constexpr const char* kInputAt = R"(
 // Inputs at a stage: held over the step, or sampled there.
@@ -66,12 +70,12 @@ std::string support_function(const Function& function) {
   std::string text = "\n";
   if (!function.comment.empty()) text += prefixed("// ", function.comment);
   if (function.only_sampled) {
-    text += kTemplate + aligned("void " + function.name + "(",
-                                parameter_texts({"", "", function.parameters}, "Real", "", false, true),
-                                ") noexcept {}");
-    text += "template <class Real, class InputAt> JOURDAIN_FUNCTION\n";
+    text += opening(function, "class Real") +
+            aligned("void " + function.name + "(",
+                    parameter_texts({"", "", function.parameters}, "Real", "", false, true), ") noexcept {}");
+    text += opening(function, "class Real, class InputAt");
   } else {
-    text += samples ? "template <class Real, class Inputs> JOURDAIN_FUNCTION\n" : kTemplate;
+    text += opening(function, samples ? "class Real, class Inputs" : "class Real");
   }
   return text +
          aligned("void " + function.name + "(",
@@ -103,20 +107,23 @@ std::string definition(const Function& function) {
   const bool samples = may_sample(function);
   const std::string body = statements_text(function.body, {false, samples});
   if (!samples)
-    return "\n" + kTemplate + wrapped(signature(function, "Real", false) + " {", 0) + body + "}\n";
+    return "\n" + opening(function, "class Real") + wrapped(signature(function, "Real", false) + " {", 0) +
+           body + "}\n";
   std::string arguments;
   for (const Parameter& parameter : function.parameters)
     arguments += (arguments.empty() ? "" : ", ") + parameter.name;
-  return "\n// `input` may be a function that gives the Input at the state of a stage.\n"
-         "template <class Real, class InputAt> JOURDAIN_FUNCTION\n" +
+  return "\n// `input` may be a function that gives the Input at the state of a stage.\n" +
+         opening(function, "class Real, class InputAt") +
          wrapped(head(function, "Real", parameter_texts(function, "Real", "InputAt", true, false)) + " {",
                  0) +
-         body + "}\n\n" + kTemplate + wrapped(signature(function, "Real", true) + " {", 0) +
+         body + "}\n\n" + opening(function, "class Real") +
+         wrapped(signature(function, "Real", true) + " {", 0) +
          wrapped(fmt::format("{}<Real, Input<Real>>({});", function.name, arguments), 2) + "}\n";
 }
 
 std::string part_definition(const Function& part) {
-  return "\n" + kTemplate + signature(part, "Real", true) + " {\n" + statements_text(part.body, {}) + "}\n";
+  return "\n" + opening(part, "class Real") + signature(part, "Real", true) + " {\n" +
+         statements_text(part.body, {}) + "}\n";
 }
 
 std::string support_text(const Support& support, bool samples_inputs) {

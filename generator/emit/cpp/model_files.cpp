@@ -20,6 +20,7 @@
 #include "emit/cpp/user_functions.hpp"
 #include "emit/far_values.hpp"
 #include "emit/function_names.hpp"
+#include "emit/inlining.hpp"
 #include "emit/layout.hpp"
 #include "emit/manifest.hpp"
 #include "emit/model_code.hpp"
@@ -50,6 +51,7 @@ class Emitter {
         steps_(step_records(model.facts, functions, module)) {
     if (own_sines()) gather_sines();
     keep_far_values();
+    inline_short_functions(module_, code_);
   }
 
   std::vector<File> files() const {
@@ -76,6 +78,7 @@ class Emitter {
         {"SINE_BLOCKS", sine_blocks()},
         {"LANES", if_any(has_lanes(), "lanes.in")},
         {"NEARBY", if_any(has_far_values_, "nearby.in")},
+        {"INLINED", if_any(inlines(), "inlined.in")},
         {"STATE_DOC", state_doc()},
         {"STATE", state_members()},
         {"NG", guard_limits(model_)},
@@ -145,6 +148,11 @@ class Emitter {
     }
     for (const std::uint32_t array : arrays_in(module_)) texts += "\n" + table_text(array);
     return texts;
+  }
+
+  bool inlines() const {
+    return std::any_of(code_.functions.begin(), code_.functions.end(),
+                       [](const CutFunction& cut) { return cut.function.is_inlined; });
   }
 
   bool has_lanes() const {

@@ -64,7 +64,7 @@ class Planner {
     plan_.freedom = layout_.velocity_count() - std::min(layout_.velocity_count(), plan_.rows.size());
     if (!check_moved_inertia(mechanism_, configurations_, jacobians_, diagnostics_)) return {};
     massless_ = massless_in_tree(mechanism_, start_);
-    set_scales(mechanism_, start_, jacobians_.front(), massless_.empty(), plan_);
+    set_scales(mechanism_, configurations_, jacobians_, massless_.empty(), plan_);
     if (model::binds_velocities(mechanism_)) {
       if (!check_velocities(mechanism_, closure_, configurations_, plan_.rows, diagnostics_)) return {};
       if (!treat_velocities()) return {};
@@ -72,7 +72,7 @@ class Planner {
       return {};
     }
     if (!check_tree_inertia(mechanism_, massless_, plan_, diagnostics_)) return {};
-    if (!plan_.is_reduced()) share();
+    if (!plan_.is_reduced() && !share()) return {};
     set_determinant(mechanism_, configurations_, jacobians_, plan_);
     return plan_;
   }
@@ -287,9 +287,9 @@ class Planner {
                          "watch 'regularity' of State, declare ranges, or use treatment = \"multipliers\"");
   }
 
-  void share() {
+  bool share() {
     plan_.sharing = sharing_rows(jacobians_, plan_.rows);
-    if (!plan_.sharing.empty()) set_sharing_lengths(mechanism_, configurations_, jacobians_, plan_);
+    return set_scales_of_multipliers(mechanism_, configurations_, jacobians_, plan_, diagnostics_);
   }
 
   void keep_all() {

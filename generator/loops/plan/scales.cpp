@@ -1,7 +1,10 @@
 #include "loops/plan/scales.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "loops/plan/schur_solution.hpp"
 #include "loops/rows/dense_solver.hpp"
@@ -20,6 +23,15 @@ using support::at;
 /// rounding allows, and what keeps multipliers bounded where singular configurations are passed again and again.
 constexpr double kLeast = 1e-10, kBounding = 1e-7;
 
+/// A row with a length that weighs less than this share of the heaviest one would lose what is seen.
+constexpr long double kLight = 1e-3;
+
+/// Regularisation as a share of the smallest singular value of G M⁻¹ Gᵀ, rows scaled, where it is largest.
+constexpr double kHolding = 1e-4;
+
+/// Smallest singular value, as a share of the largest entry, that the rounding of double leaves six digits of.
+constexpr long double kDiscerned = 1e-10;
+
 Matrix rows_of(const Matrix& G, const std::vector<std::size_t>& rows) {
   Matrix part(at(rows.size()), G.cols());
   for (std::size_t k = 0; k < rows.size(); ++k) part.row(at(k)) = G.row(at(rows[k]));
@@ -37,15 +49,34 @@ std::vector<bool> lengths_of(const model::Mechanism& mechanism) {
   return is_length;
 }
 
-void set_row_lengths(const model::Mechanism& mechanism, const Vector& S, LoopPlan& plan) {
+/// How a row weighs that is next to nothing at the start, or holds bodies far heavier than others do: as much as it
+/// does anywhere.
+Vector greatest_weights(const model::Mechanism& mechanism, const std::vector<Configuration>& configurations,
+                        const std::vector<Matrix>& jacobians) {
+  Vector largest = Vector::Zero(jacobians.front().rows());
+  for (std::size_t k = 0; k < configurations.size(); ++k)
+    largest = largest.cwiseMax(schur_matrix(mechanism, configurations[k], jacobians[k]).diagonal());
+  return largest;
+}
+
+void set_row_lengths(const model::Mechanism& mechanism, const std::vector<Configuration>& configurations,
+                     const std::vector<Matrix>& jacobians, LoopPlan& plan) {
+  const Vector S = schur_matrix(mechanism, configurations.front(), jacobians.front()).diagonal();
   const std::vector<bool> is_length = lengths_of(mechanism);
   long double largest = 0;
   for (std::size_t r = 0; r < is_length.size(); ++r)
     if (is_length[r]) largest = std::max(largest, S[at(r)]);
   if (!(largest > 0)) largest = S.maxCoeff();
+  std::optional<Vector> anywhere;
   for (std::size_t r = 0; r < is_length.size(); ++r) {
-    const bool scaled = !is_length[r] && S[at(r)] > kRankTolerance * largest;
-    plan.row_length.push_back(scaled ? static_cast<double>(std::sqrt(largest / S[at(r)])) : 1);
+    long double weight = S[at(r)];
+    if (is_length[r] && weight < kLight * largest) {
+      if (!anywhere) anywhere = greatest_weights(mechanism, configurations, jacobians);
+      weight = (*anywhere)[at(r)];
+    }
+    const bool scaled =
+        is_length[r] ? weight > 0 && weight < kLight * largest : weight > kRankTolerance * largest;
+    plan.row_length.push_back(scaled ? static_cast<double>(std::sqrt(largest / weight)) : 1);
   }
   const bool bounds =
       plan.is_named && plan.redundant.empty();  // rows that are chosen may be weak where others hold
@@ -64,23 +95,67 @@ Matrix schur_matrix(const model::Mechanism& mechanism, const Configuration& at_s
   return G * reference::solved_by_ldlt<long double>(terms.M, Matrix(G.transpose()));
 }
 
-void set_scales(const model::Mechanism& mechanism, const Configuration& start, const Matrix& G,
-                bool is_regular, LoopPlan& plan) {
+void set_scales(const model::Mechanism& mechanism, const std::vector<Configuration>& configurations,
+                const std::vector<Matrix>& jacobians, bool is_regular, LoopPlan& plan) {
   if (is_regular)
-    set_row_lengths(mechanism, schur_matrix(mechanism, start, G).diagonal(), plan);
+    set_row_lengths(mechanism, configurations, jacobians, plan);
   else
-    plan.row_length.assign(static_cast<std::size_t>(G.rows()), 1);
+    plan.row_length.assign(static_cast<std::size_t>(jacobians.front().rows()), 1);
+}
+
+namespace {
+
+bool limit_regularisation(const model::Mechanism& mechanism, const std::vector<Configuration>& configurations,
+                          const std::vector<Matrix>& jacobians, LoopPlan& plan,
+                          support::Diagnostics& diagnostics) {
+  const std::vector<std::size_t> rows = plan.solved_rows();
+  if (rows.empty() || !(plan.closing_regularisation > 0)) return true;
+  Vector lengths(at(rows.size()));
+  for (std::size_t k = 0; k < rows.size(); ++k) lengths[at(k)] = plan.row_length[rows[k]];
+  long double smallest = 0;
+  for (std::size_t k = 0; k < configurations.size(); ++k) {
+    const Matrix S = schur_matrix(mechanism, configurations[k], rows_of(jacobians[k], rows));
+    const Vector values =
+        reference::singular_values<long double>(Matrix(lengths.asDiagonal() * S * lengths.asDiagonal()));
+    smallest = std::max(smallest, values.minCoeff());
+  }
+  const long double largest = plan.closing_regularisation / kLeast;
+  if (smallest < kDiscerned * largest) {
+    diagnostics.error(
+        mechanism.loop_options.where,
+        fmt::format("multipliers cannot hold these constraints: in double they do not tell the weakest "
+                    "from nothing ({:.1g} of the strongest, by G M^-1 G^T): masses are too far apart",
+                    static_cast<double>(smallest / largest)),
+        "take another treatment, or leave out what weighs next to nothing");
+    return false;
+  }
+  const double least = kHolding * static_cast<double>(smallest);
+  plan.regularisation = std::min(plan.regularisation, least);
+  plan.closing_regularisation = std::min(plan.closing_regularisation, least);
+  return true;
 }
 
 void set_sharing_lengths(const model::Mechanism& mechanism, const std::vector<Configuration>& configurations,
                          const std::vector<Matrix>& jacobians, LoopPlan& plan) {
-  Vector largest = Vector::Zero(at(plan.row_length.size()));
-  for (std::size_t k = 0; k < configurations.size(); ++k)
-    largest = largest.cwiseMax(schur_matrix(mechanism, configurations[k], jacobians[k]).diagonal());
+  const Vector largest = greatest_weights(mechanism, configurations, jacobians);
   const std::vector<bool> is_length = lengths_of(mechanism);
   const long double size = plan.closing_regularisation / kLeast;
-  for (const std::size_t r : plan.sharing)
-    plan.row_length[r] = is_length[r] ? 1 : static_cast<double>(std::sqrt(size / largest[at(r)]));
+  for (const std::size_t r : plan.sharing) {
+    const bool scaled = !is_length[r] || largest[at(r)] < kLight * size;
+    plan.row_length[r] = scaled ? static_cast<double>(std::sqrt(size / largest[at(r)])) : 1;
+  }
+}
+
+}  // namespace
+
+bool set_scales_of_multipliers(const model::Mechanism& mechanism,
+                               const std::vector<Configuration>& configurations,
+                               const std::vector<Matrix>& jacobians, LoopPlan& plan,
+                               support::Diagnostics& diagnostics) {
+  if (plan.sharing.empty())
+    return limit_regularisation(mechanism, configurations, jacobians, plan, diagnostics);
+  set_sharing_lengths(mechanism, configurations, jacobians, plan);
+  return true;
 }
 
 namespace {

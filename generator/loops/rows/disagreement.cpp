@@ -97,15 +97,16 @@ class Settlement {
   void report_disagreement() {
     std::vector<std::string> names;
     for (const std::size_t r : found_.rows) names.push_back(names_[r]);
-    const std::string what =
-        fmt::format("constraints {} follow from the others but for {:.1g}: they are left open by that",
-                    fmt::join(names, ", "), found_.amount);
+    const std::string what = fmt::format(
+        "constraints {} hold next to nothing that the others do not: they are left open, by up to {:.1g}",
+        fmt::join(names, ", "), found_.amount);
     const support::SourceRange where = mechanism_.loops.front().where;
     if (found_.amount <= kRowTolerance)
       diagnostics_.note(where, what, "rounded numbers, or an axis that is askew");
     else
-      diagnostics_.warning(
-          where, what, "an axis is askew, or numbers have few digits; strictly the mechanism cannot move");
+      diagnostics_.warning(where, what,
+                           "an axis is askew, or numbers have few digits; strictly the mechanism has fewer "
+                           "degrees of freedom");
   }
 
   const model::Mechanism& mechanism_;

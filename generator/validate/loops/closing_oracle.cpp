@@ -122,6 +122,10 @@ ScaledReal squared_change(const Closed& c) {
 /// directions that are larger than that.
 constexpr long double kLeastScale = 1e-20L;
 
+/// What no double can tell. A closed form takes rotations of the description for orthonormal; their entries, which are
+/// doubles, are so but for the last digit.
+constexpr long double kOfForms = std::numeric_limits<double>::epsilon() / 4;
+
 Closed with_least_scales(Closed c) {
   for (ScaledReal& entry : c.y) entry = entry.with_scale(kLeastScale);
   return c;
@@ -132,7 +136,9 @@ Closed with_least_scales(Closed c) {
 std::vector<Expected> closing_expected(const LoopScene& scene, const State& open,
                                        const ir::Program& program) {
   const Closed c = with_least_scales(closed(scene, open));
-  Expected expected{c.oracle, {}, scene.plan.closed_form.has_value()};
+  Expected expected{c.oracle, {}};
+  expected.scales_are_unknown = scene.plan.closed_form.has_value();
+  if (scene.plan.closed_form) expected.allowed = kOfForms;
   // Determinants of velocities are over those at the start, and may be larger elsewhere.
   if (!scene.closure.carried().empty()) expected.largest_share = std::numeric_limits<double>::max();
   for (const ir::Output& output : program.outputs) {
