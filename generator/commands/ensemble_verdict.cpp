@@ -94,8 +94,11 @@ int report_ensemble(const EnsembleResult& result, const Verdict& verdict, const 
   const StepError& error = verdict.error;
   if (!verdict.statistics.empty()) {
     fmt::print("{}", statistics_table(result.columns, verdict.statistics));
-    fmt::print("  half the step moves the first {} ends by at most {:.2g} of a deviation{}\n",
+    const bool deviates = std::any_of(verdict.statistics.begin(), verdict.statistics.end(),
+                                      [](const Statistics& s) { return s.least != s.greatest; });
+    fmt::print("  half the step moves the first {} ends by at most {:.2g} of {}{}\n",
                result.halved.trusted.size(), error.ratio,
+               deviates ? "a deviation" : "a thousandth of their size",
                error.column.empty() ? "" : fmt::format(" ({})", error.column));
   }
   if (!files.empty()) fmt::print("  wrote {}\n", files);

@@ -32,6 +32,16 @@ std::vector<std::string> parts(const std::string& text, char separator) {
   return list;
 }
 
+/// FRAME:QUANTITIES:AXES; a name of SDF holds pairs of colons.
+std::vector<std::string> frame_parts(std::string text) {
+  constexpr char kPair = '\0';
+  for (std::size_t at = 0; (at = text.find("::", at)) != std::string::npos;) text.replace(at, 2, 1, kPair);
+  std::vector<std::string> words = parts(text, ':');
+  for (std::string& word : words)
+    for (std::size_t at = 0; (at = word.find(kPair, at)) != std::string::npos;) word.replace(at, 1, "::");
+  return words;
+}
+
 std::string suggestion(const std::string& word, const std::vector<std::string>& known) {
   const std::string near = support::nearest(word, known);
   return near.empty() ? fmt::format("there are {}", fmt::join(known, ", "))
@@ -45,7 +55,7 @@ std::string add_frame(const std::string& text, model::Mechanism& mechanism) {
   if (equals == std::string::npos) return option + "write NAME=FRAME, as in tool=hand";
   const std::string prefix = text.substr(0, equals);
   if (!model::is_identifier(prefix)) return fmt::format("{}'{}' is not an identifier", option, shown(prefix));
-  const std::vector<std::string> words = parts(text.substr(equals + 1), ':');
+  const std::vector<std::string> words = frame_parts(text.substr(equals + 1));
   if (words.size() > 3) return option + "more than FRAME:QUANTITIES:AXES";
   const std::optional<model::FrameIndex> frame = model::frame_named(mechanism, words[0]);
   if (!frame) {

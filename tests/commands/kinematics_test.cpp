@@ -137,5 +137,23 @@ TEST_F(Kinematics, OfWhatOnlyMovesAsPrescribedTakeNoAccelerations) {
               HasSubstr("void tip_acceleration(const Model<Real>& model, const State<Real>& state, Real"));
 }
 
+/// Names of links in a world of SDF hold pairs of colons.
+TEST_F(Kinematics, FramesOfModelsInAWorldHaveTheirNames) {
+  const std::string model = in_folder("world.sdf");
+  support::write_file(
+      model,
+      "<sdf version=\"1.9\"><world name=\"w\"><model name=\"arm\"><link name=\"a\"><inertial><mass>1"
+      "</mass><inertia><ixx>1</ixx><iyy>1</iyy><izz>1</izz></inertia></inertial></link><joint "
+      "name=\"j\" type=\"revolute\"><parent>world</parent><child>a</child></joint></model></world>"
+      "</sdf>");
+  const support::ProcessResult result =
+      run({JOURDAIN_BINARY, "compile", model, "-o", folder_.path(), "--frame", "t=arm::a:pose,jacobian:frame",
+           "--frame", "u=arm::a"});
+  ASSERT_EQ(result.status, 0) << result.output;
+  const std::string header = support::read_file(in_folder("w.hpp"));
+  for (const char* function : {"void t_pose(", "void t_jacobian(", "void u_pose("})
+    EXPECT_THAT(header, HasSubstr(function));
+}
+
 }  // namespace
 }  // namespace jourdain::tests

@@ -242,6 +242,25 @@ TEST(ReadSdf, TakesWorlds) {
   EXPECT_EQ(moving_joints(of.mechanism).size(), 1u);
 }
 
+/// Its place moved from <physics> into the <world> with 1.6.
+TEST(ReadSdf, TakesGravityFromWhereTheVersionHasIt) {
+  const auto world = [](const std::string& version, const std::string& inside) {
+    return read(
+        fmt::format("<sdf version=\"{}\"><world name=\"w\">{}<model name=\"m\">{}</model></world></sdf>",
+                    version, inside, link("a") + kShoulder));
+  };
+  const std::string moon = "<gravity>0 0 -1.62</gravity>", physics = "<physics>" + moon + "</physics>";
+  for (const char* version : {"1.4", "1.5"}) {
+    const Read of = world(version, physics);
+    EXPECT_EQ(of.mechanism.gravity[2].constant(), -1.62) << version;
+    EXPECT_EQ(of.diagnostics, "") << version;
+  }
+  const Read later = world("1.7", physics);
+  EXPECT_EQ(later.mechanism.gravity[2].constant(), -9.8);
+  EXPECT_NE(later.diagnostics.find("warning: the <gravity> of <physics> is ignored"), std::string::npos);
+  EXPECT_EQ(world("1.7", "<physics/>" + moon).mechanism.gravity[2].constant(), -1.62);
+}
+
 TEST(ReadSdf, NestedModelsKeepTheirNames) {
   const Read of =
       read(model(link("base") + "<model name=\"hand\">" + pose("0 0 1 0 0 0") +
@@ -261,7 +280,8 @@ TEST(ReadSdf, JointsThatWouldCarryALinkTwiceBecomeLoops) {
             joint("k", "revolute", "a", "b", "<axis><xyz>0 1 0</xyz></axis>") +
             joint("l", "revolute", "world", "c", "<axis><xyz>0 1 0</xyz></axis>") +
             joint("close", "revolute", "c", "b", pose("0 0 0.5 0 0 0") + "<axis><xyz>0 1 0</xyz></axis>")));
-  EXPECT_EQ(of.diagnostics, "");
+  EXPECT_NE(of.diagnostics.find("note: joint 'close' closes a loop: it has no coordinate and no input"),
+            std::string::npos);
   ASSERT_EQ(of.mechanism.loops.size(), 1u);
   const Loop& loop = of.mechanism.loops[0];
   EXPECT_EQ(loop.name, "close");
@@ -351,6 +371,12 @@ TEST(ReadSdf, AttributesAreReadOrTold) {
   said("<pose degrees=\"yes\">0 0 0 90 0 0</pose>", "error: 'degrees' is true or false, not 'yes'");
   said("<pose rotation_format=\"quat_wxyz\">0 0 0 0 0 0</pose>",
        "error: 'rotation_format' is euler_rpy or quat_xyzw, not 'quat_wxyz'");
+  said("<inertial><pose relative_to=\"b\">0 0 0 0 0 0</pose></inertial>",
+       "warning: the frame of the <pose> of an <inertial> is ignored");
+  const std::string ball = "<axis><dynamics><damping>2</damping></dynamics></axis>";
+  const std::string of_ball = read(model(link("a") + joint("j", "ball", "world", "a", ball))).diagnostics;
+  EXPECT_NE(of_ball.find("warning: the <damping> of ball joint 'j' is ignored"), std::string::npos)
+      << of_ball;
   const std::string axis = "<axis><xyz expresed_in=\"__model__\">0 1 0</xyz></axis>";
   const std::string diagnostics =
       read(model(link("a") + joint("j", "revolute", "world", "a", axis))).diagnostics;

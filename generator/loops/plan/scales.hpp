@@ -17,8 +17,8 @@ void set_scales(const model::Mechanism& mechanism, const std::vector<Configurati
                 const std::vector<Matrix>& jacobians, bool is_regular, LoopPlan& plan);
 
 /// Where rows share, sets their row_length from the configurations seen: at the start such a row may be next to
-/// nothing. Else makes the regularisation small beside what holds the weakest row, where that is strongest: false after an error
-/// where double cannot tell that from nothing.
+/// nothing. Else makes the regularisation small beside what holds the weakest row, where that is strongest: false
+/// after an error where double cannot tell that from nothing.
 bool set_scales_of_multipliers(const model::Mechanism& mechanism,
                                const std::vector<Configuration>& configurations,
                                const std::vector<Matrix>& jacobians, LoopPlan& plan,

@@ -110,7 +110,7 @@ Mechanism read_root(MjcfFile& file, const ReadOptions& options) {
 
 std::optional<Part> read_mjcf(Diagnostics& diagnostics, const ReadOptions& options) {
   if (options.root == RootJoint::kFree) {
-    diagnostics.error({}, "a free root can be asked for with URDF files only",
+    diagnostics.error({}, "a free root can be asked for with URDF and SDF files only",
                       "declare the root's joint in the file: <freejoint/>");
     return {};
   }

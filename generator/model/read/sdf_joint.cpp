@@ -50,6 +50,7 @@ class JointReader {
     joint().axis = axis("axis");
     if (*type == JointType::kUniversal || read_.gearbox) joint().second_axis = axis("axis2");
     for (std::size_t c = 0; c < joint().coordinates.size(); ++c) read_coordinate(c);
+    if (*type == JointType::kSpherical) look_at_ball();
     if (*type == JointType::kScrew) read_pitch();
     if (read_.gearbox && !read_gearbox()) return {};
     return std::move(read_);
@@ -100,7 +101,10 @@ class JointReader {
     const XmlElement* found = file_.child(element_, name);
     const XmlElement* xyz = found ? file_.child(*found, "xyz") : nullptr;
     const std::array<double, 3> given = xyz ? file_.triple_of(*xyz, kStandard) : kStandard;
-    if (xyz && file_.version > 6) file_.check_attributes(*xyz, {"expressed_in"});
+    if (xyz && file_.version > 6)
+      file_.check_attributes(*xyz, {"expressed_in"});
+    else if (xyz)
+      file_.check_attributes(*xyz, {});
     if (xyz && name == std::string_view("axis")) joint().axis_where = file_.element(*xyz);
     if (found && file_.version > 6 && found->FirstChildElement("use_parent_model_frame"))
       file_.diagnostics().warning(file_.element(*found->FirstChildElement("use_parent_model_frame")),
@@ -145,6 +149,18 @@ class JointReader {
     }
     if (const XmlElement* mimic = options_.mimic ? file_.child(*found, "mimic") : nullptr)
       read_mimic(*mimic, c);
+  }
+
+  /// A ball joint has no coordinate for what dynamics its axis may have.
+  void look_at_ball() {
+    const XmlElement* found = element_.FirstChildElement("axis");
+    const XmlElement* dynamics = found ? file_.child(*found, "dynamics") : nullptr;
+    if (!dynamics) return;
+    for (const char* name : {"damping", "friction", "spring_stiffness"})
+      if (file_.number_in(*dynamics, name, 0) != 0)
+        return file_.diagnostics().warning(
+            file_.element(*dynamics->FirstChildElement(name)),
+            fmt::format("the <{}> of ball joint '{}' is ignored", name, shown(joint().name)));
   }
 
   void read_mimic(const XmlElement& mimic, std::size_t c) {

@@ -83,10 +83,7 @@ class SdfReader {
                                  "audio",
                                  "name"});
     mechanism_.gravity = {0.0, 0.0, -9.8};  // what the format says
-    if (const XmlElement* gravity = file_.child(world, "gravity")) {
-      const auto g = file_.triple_of(*gravity, {0, 0, -9.8});
-      mechanism_.gravity = {g[0], g[1], g[2]};
-    }
+    read_gravity(world);
     for (const auto* e = world.FirstChildElement("model"); e; e = e->NextSiblingElement("model"))
       if (const std::optional<std::string> name = file_.name(*e)) read_model(*e, "", "", *name + "::", false);
     read_frames_and_joints(world, "", false);
@@ -94,6 +91,21 @@ class SdfReader {
     if (const XmlElement* state = world.FirstChildElement("state"))
       file_.diagnostics().warning(file_.element(*state), "the <state> of the <world> is ignored",
                                   "motions start where the models' poses put them");
+  }
+
+  /// Up to SDF 1.5 it stands in <physics>, later beside it.
+  void read_gravity(const XmlElement& world) {
+    const XmlElement* physics = world.FirstChildElement("physics");
+    const XmlElement* within = physics ? file_.child(*physics, "gravity") : nullptr;
+    const XmlElement* gravity = file_.child(world, "gravity");
+    if (!gravity && file_.version <= 5) gravity = within;
+    if (within && gravity != within)
+      file_.diagnostics().warning(file_.element(*within), "the <gravity> of <physics> is ignored",
+                                  gravity ? "that of the <world> is taken"
+                                          : "from SDF 1.6 on it stands in the <world>; 0 0 -9.8 is taken");
+    if (!gravity) return;
+    const auto g = file_.triple_of(*gravity, {0, 0, -9.8});
+    mechanism_.gravity = {g[0], g[1], g[2]};
   }
 
   /// `scope` is that of the names in the model, `outer` that of its own, `base` the frame around it.
@@ -265,6 +277,9 @@ class SdfReader {
       file_.error(file_.value(*inertial, "auto"), "an inertia that follows from geometry is not read",
                   "write <mass> and <inertia>");
     link.inertial = file_.pose_in(*inertial, link.inertial_where);
+    if (!file_.pose_base(*inertial).empty())
+      file_.diagnostics().warning(link.inertial_where, "the frame of the <pose> of an <inertial> is ignored",
+                                  "it is given in that of the link");
     if (const XmlElement* mass = file_.child(*inertial, "mass")) {
       body.mass = file_.number_in(*inertial, "mass", 1);
       body.mass_where = file_.element(*mass);

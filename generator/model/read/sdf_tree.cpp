@@ -183,6 +183,11 @@ class Assembly {
             fmt::format("joint '{}' closes a loop: its spring and damper are left out", shown(joint.name)));
         break;
       }
+    if (!is_fixed && joint.coordinates.size() > 0)
+      file_.diagnostics().note(
+          joint.where,
+          fmt::format("joint '{}' closes a loop: it has no coordinate and no input", shown(joint.name)),
+          "its links hang on others that come before it in the file");
     Loop loop;
     loop.name = joint.name;
     loop.type = *type;

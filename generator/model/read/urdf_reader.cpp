@@ -183,6 +183,10 @@ class UrdfReader {
     if (const XmlElement* dynamics = file_.child(element, "dynamics")) {
       const double damping = file_.number(*dynamics, "damping", 0);
       const double friction = file_.number(*dynamics, "friction", 0);
+      if (joint.type == JointType::kFree && (damping != 0 || friction != 0))
+        file_.diagnostics().warning(
+            file_.element(*dynamics),
+            fmt::format("the <dynamics> of floating joint '{}' is ignored", shown(joint.name)));
       for (Coordinate& coordinate : joint.coordinates) {
         if (options_.damping) coordinate.damping = damping;
         if (options_.friction) coordinate.friction = friction;
@@ -190,7 +194,8 @@ class UrdfReader {
       if (options_.friction && friction < 0)
         error(file_.value(*dynamics, "friction"),
               fmt::format("the friction of joint '{}' is negative", shown(joint.name)));
-      if (!options_.friction && friction != 0 && !locked && ++joints_with_friction_ == 1) {
+      if (!options_.friction && friction != 0 && !locked && joint.type != JointType::kFree &&
+          ++joints_with_friction_ == 1) {
         first_friction_ = joint.name;
         first_friction_where_ = file_.value(*dynamics, "friction");
       }

@@ -122,9 +122,9 @@ ScaledReal squared_change(const Closed& c) {
 /// directions that are larger than that.
 constexpr long double kLeastScale = 1e-20L;
 
-/// What no double can tell. A closed form takes rotations of the description for orthonormal; their entries, which are
-/// doubles, are so but for the last digit.
-constexpr long double kOfForms = std::numeric_limits<double>::epsilon() / 4;
+/// A closed form takes rotations of the description for orthonormal, and redundant rows for fulfilled: numbers that are
+/// doubles are and do so but for their last digits.
+constexpr long double kOfForms = 16 * std::numeric_limits<double>::epsilon();
 
 Closed with_least_scales(Closed c) {
   for (ScaledReal& entry : c.y) entry = entry.with_scale(kLeastScale);
