@@ -63,7 +63,8 @@ StepError step_error(const EnsembleResult& result, const std::vector<Statistics>
   for (std::size_t i = drawn; i < result.columns.size(); ++i) {
     const double ratio =
         column_error(result, result.values(i), result.halved.columns[i - drawn], statistics[i]);
-    if (ratio > worst.ratio) worst = {ratio, result.columns[i].name};
+    if (ratio > worst.ratio)
+      worst = {ratio, result.columns[i].name, statistics[i].least != statistics[i].greatest};
   }
   return worst;
 }
@@ -94,11 +95,8 @@ int report_ensemble(const EnsembleResult& result, const Verdict& verdict, const 
   const StepError& error = verdict.error;
   if (!verdict.statistics.empty()) {
     fmt::print("{}", statistics_table(result.columns, verdict.statistics));
-    const bool deviates = std::any_of(verdict.statistics.begin(), verdict.statistics.end(),
-                                      [](const Statistics& s) { return s.least != s.greatest; });
     fmt::print("  half the step moves the first {} ends by at most {:.2g} of {}{}\n",
-               result.halved.trusted.size(), error.ratio,
-               deviates ? "a deviation" : "a thousandth of their size",
+               result.halved.trusted.size(), error.ratio, error.unit(),
                error.column.empty() ? "" : fmt::format(" ({})", error.column));
   }
   if (!files.empty()) fmt::print("  wrote {}\n", files);
@@ -106,9 +104,9 @@ int report_ensemble(const EnsembleResult& result, const Verdict& verdict, const 
   const bool is_step_short = error.ratio <= result.facts.accuracy;
   if (!is_step_short)
     fmt::print(stderr,
-               "error: the step is too long for these statistics (allowed: {:g} of a deviation); take a "
+               "error: the step is too long for these statistics (allowed: {:g} of {}); take a "
                "shorter one, or allow more by --accuracy where a motion is chaotic\n",
-               result.facts.accuracy);
+               result.facts.accuracy, error.unit());
   return verdict.untrusted > 0 || !is_step_short ? kModelWrong : kSuccess;
 }
 

@@ -14,6 +14,9 @@ namespace jourdain::commands {
 struct StepError {
   double ratio = 0;
   std::string column;
+  bool deviates = true;  ///< else `ratio` is over a thousandth of its size
+
+  std::string unit() const { return deviates ? "a deviation" : "a thousandth of the value"; }
 };
 
 /// Of the first states of a result that are trusted; `statistics` are those of all of an ensemble, or of its shard, at

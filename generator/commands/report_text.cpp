@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "passes/lanes.hpp"
 
 namespace jourdain::commands {
@@ -31,12 +29,10 @@ std::string operations_table(const ir::Module& module) {
 }
 
 std::string verdict_text(const validate::Verdict& v) {
-  auto algebra = static_cast<double>(validate::kAlgebra);
-  for (const validate::Compared& c : v.compared) algebra = std::max(algebra, c.algebra);
   return fmt::format(
-      "  validated at {} states: algebra agrees to {:.2g}; in double backward error {:.1e}, others {:.1e} of "
+      "  validated at {} states: algebra agrees to {}; in double backward error {:.1e}, others {:.1e} of "
       "their scale; cond(M) up to {}\n{}",
-      v.states, algebra, v.backward_error, v.entry_error, validate::condition_text(v),
+      v.states, validate::algebra_text(v), v.backward_error, v.entry_error, validate::condition_text(v),
       v.kinks.count == 0 ? "" : "  " + validate::in_words(v.kinks) + "\n");
 }
 

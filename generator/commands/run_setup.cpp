@@ -33,7 +33,7 @@ bool ends_with(const std::string& text, const std::string& end) {
 }
 
 /// False after a message where a number of the command line has no room in the run's number type.
-bool fits(const std::string& option, double value, const std::string& real) {
+bool check_room(const std::string& option, double value, const std::string& real) {
   const std::string misfit = real == "float" ? support::float_misfit(value) : "";
   if (!misfit.empty()) fmt::print(stderr, "error: {}: {} {}\n", option, value, misfit);
   return misfit.empty();
@@ -74,7 +74,7 @@ bool apply_settings(const RunArguments& arguments, const model::Mechanism& mecha
                  (*range)[0], (*range)[1]);
       return false;
     }
-    if (!fits("--set " + setting, value, arguments.real)) return false;
+    if (!check_room("--set " + setting, value, arguments.real)) return false;
     values[index] = value;
   }
   return true;
@@ -157,7 +157,7 @@ std::optional<RunModel> read_run(const RunArguments& arguments, int& status) {
       return {};
     }
   for (const double input : arguments.constant_input)
-    if (!fits("--constant-input", input, arguments.real)) return {};
+    if (!check_room("--constant-input", input, arguments.real)) return {};
   const std::size_t inputs = model::lay_out_coordinates(model.loaded.mechanism).input_count();
   if (!arguments.constant_input.empty() && arguments.constant_input.size() != inputs) {
     fmt::print(stderr, "error: --constant-input has {} values, the model has {} inputs\n",

@@ -70,10 +70,10 @@ std::vector<std::string> left_out_sentences(const std::vector<Omission>& omissio
 
 std::vector<std::string> validation_sentences(const validate::Verdict& verdict) {
   std::vector<std::string> list = {fmt::format(
-      "validated at {} states: in 77 digits everything below agrees to {:g} of its scale (what rounding can "
+      "validated at {} states: in 77 digits everything below agrees to {} of its scale (what rounding can "
       "move it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is {:.1e} "
       "of the sum of absolute terms, other errors are {:.1e} of their scale; cond(M) up to {}",
-      verdict.states, static_cast<double>(validate::kAlgebra), verdict.backward_error, verdict.entry_error,
+      verdict.states, validate::algebra_text(verdict), verdict.backward_error, verdict.entry_error,
       validate::condition_text(verdict))};
   if (verdict.kinks.count > 0) list.push_back(validate::in_words(verdict.kinks));
   std::string equations;

@@ -159,7 +159,7 @@ inline Window& nearby(Window& window) noexcept { return window; }
 )";
 
 constexpr const char* kInlined = R"(#if !defined(JOURDAIN_INLINED)
-#if defined(__GNUC__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__) && (defined(__x86_64__) || defined(__aarch64__))
+#if defined(__GNUC__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__) && !defined(__NO_INLINE__) && (defined(__x86_64__) || defined(__aarch64__))
 #define JOURDAIN_INLINED inline __attribute__((always_inline))
 #else
 #define JOURDAIN_INLINED

@@ -127,6 +127,15 @@ std::vector<Sample> on_both_sides(const model::Mechanism& mechanism, std::vector
 
 }  // namespace
 
+std::string algebra_text(const Verdict& verdict) {
+  double worst = 0;
+  for (const Compared& c : verdict.compared) worst = std::max(worst, c.algebra);
+  const std::string text = fmt::format("{:g}", static_cast<double>(kAlgebra));
+  return worst <= static_cast<double>(kAlgebra)
+             ? text
+             : fmt::format("{} (closing in closed form to {:.2g})", text, worst);
+}
+
 std::string condition_text(const Verdict& verdict) {
   return std::isfinite(verdict.condition) ? fmt::format("{:.1e}", verdict.condition)
                                           : "more than can be told";

@@ -32,6 +32,9 @@ struct Verdict {
 /// "4.1e+01", or that it is too large to be told.
 std::string condition_text(const Verdict& verdict);
 
+/// "1e-40", and what closed forms agree to.
+std::string algebra_text(const Verdict& verdict);
+
 /// Refuses what no state was left for; `states` and `kinks` are known.
 void judge_kinks(Verdict& verdict);
 

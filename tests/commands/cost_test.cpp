@@ -128,14 +128,16 @@ long own_code(const std::string& listing, const std::string& function) {
 
 TEST(Cost, StackAndCodeAreTheCompilers) {
   const support::TemporaryFolder folder;
-  // The dynamics call nothing of the model's then.
-  const json cost = cost_of("models/double_pendulum.toml", "double", {}, {"--libm"});
+  // The dynamics call nothing of the model's then, and steps call them.
+  const json cost =
+      cost_of("models/double_pendulum.toml", "double", {"CXX=c++ -DJOURDAIN_INLINED="}, {"--libm"});
   ASSERT_EQ(jourdain({"compile", "models/double_pendulum.toml", "--libm", "--functions", functions_of(cost),
                       "-o", folder.path()})
                 .status,
             0);
-  const support::ProcessResult compiled = support::run_process(
-      {"env", "-C", folder.path(), "c++", "-std=c++17", "-O2", "-fstack-usage", "-c", "double_pendulum.cpp"});
+  const support::ProcessResult compiled =
+      support::run_process({"env", "-C", folder.path(), "c++", "-std=c++17", "-O2",
+                            "-DJOURDAIN_INLINED=", "-fstack-usage", "-c", "double_pendulum.cpp"});
   ASSERT_EQ(compiled.status, 0) << compiled.output;
   const std::string usage = support::read_file(folder.path() + "/double_pendulum.su");
   const std::string listing =

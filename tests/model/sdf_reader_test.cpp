@@ -255,9 +255,13 @@ TEST(ReadSdf, TakesGravityFromWhereTheVersionHasIt) {
     EXPECT_EQ(of.mechanism.gravity[2].constant(), -1.62) << version;
     EXPECT_EQ(of.diagnostics, "") << version;
   }
+  const std::string chosen = "<physics default=\"true\"><gravity>0 0 -3.7</gravity></physics>";
+  const Read two = world("1.5", physics + chosen);
+  EXPECT_EQ(two.mechanism.gravity[2].constant(), -3.7);
+  EXPECT_NE(two.diagnostics.find("warning: this <gravity> of <physics> is ignored"), std::string::npos);
   const Read later = world("1.7", physics);
   EXPECT_EQ(later.mechanism.gravity[2].constant(), -9.8);
-  EXPECT_NE(later.diagnostics.find("warning: the <gravity> of <physics> is ignored"), std::string::npos);
+  EXPECT_NE(later.diagnostics.find("warning: this <gravity> of <physics> is ignored"), std::string::npos);
   EXPECT_EQ(world("1.7", "<physics/>" + moon).mechanism.gravity[2].constant(), -1.62);
 }
 

@@ -49,14 +49,18 @@ std::vector<bool> lengths_of(const model::Mechanism& mechanism) {
   return is_length;
 }
 
-/// How a row weighs that is next to nothing at the start, or holds bodies far heavier than others do: as much as it
-/// does anywhere.
+/// How much a row that is next to nothing at the start, or holds bodies far heavier than others do, weighs at most; 0
+/// where it is next to nothing wherever the mechanism was seen, because others hold what it would.
 Vector greatest_weights(const model::Mechanism& mechanism, const std::vector<Configuration>& configurations,
                         const std::vector<Matrix>& jacobians) {
-  Vector largest = Vector::Zero(jacobians.front().rows());
-  for (std::size_t k = 0; k < configurations.size(); ++k)
-    largest = largest.cwiseMax(schur_matrix(mechanism, configurations[k], jacobians[k]).diagonal());
-  return largest;
+  Vector weights = Vector::Zero(jacobians.front().rows()), lengths = weights;
+  for (std::size_t k = 0; k < configurations.size(); ++k) {
+    weights = weights.cwiseMax(schur_matrix(mechanism, configurations[k], jacobians[k]).diagonal());
+    lengths = lengths.cwiseMax(jacobians[k].rowwise().norm());
+  }
+  for (Eigen::Index r = 0; r < weights.size(); ++r)
+    if (!(lengths[r] > kRankTolerance * lengths.maxCoeff())) weights[r] = 0;
+  return weights;
 }
 
 void set_row_lengths(const model::Mechanism& mechanism, const std::vector<Configuration>& configurations,
@@ -69,13 +73,13 @@ void set_row_lengths(const model::Mechanism& mechanism, const std::vector<Config
   if (!(largest > 0)) largest = S.maxCoeff();
   std::optional<Vector> anywhere;
   for (std::size_t r = 0; r < is_length.size(); ++r) {
+    const long double light = (is_length[r] ? kLight : kRankTolerance) * largest;
     long double weight = S[at(r)];
-    if (is_length[r] && weight < kLight * largest) {
+    if (weight < light) {
       if (!anywhere) anywhere = greatest_weights(mechanism, configurations, jacobians);
       weight = (*anywhere)[at(r)];
     }
-    const bool scaled =
-        is_length[r] ? weight > 0 && weight < kLight * largest : weight > kRankTolerance * largest;
+    const bool scaled = weight > 0 && (!is_length[r] || weight < light);
     plan.row_length.push_back(scaled ? static_cast<double>(std::sqrt(largest / weight)) : 1);
   }
   const bool bounds =
@@ -115,6 +119,7 @@ bool limit_regularisation(const model::Mechanism& mechanism, const std::vector<C
   long double smallest = 0;
   for (std::size_t k = 0; k < configurations.size(); ++k) {
     const Matrix S = schur_matrix(mechanism, configurations[k], rows_of(jacobians[k], rows));
+    if (!S.allFinite()) continue;
     const Vector values =
         reference::singular_values<long double>(Matrix(lengths.asDiagonal() * S * lengths.asDiagonal()));
     smallest = std::max(smallest, values.minCoeff());
@@ -123,10 +128,12 @@ bool limit_regularisation(const model::Mechanism& mechanism, const std::vector<C
   if (smallest < kDiscerned * largest) {
     diagnostics.error(
         mechanism.loop_options.where,
-        fmt::format("multipliers cannot hold these constraints: in double they do not tell the weakest "
-                    "from nothing ({:.1g} of the strongest, by G M^-1 G^T): masses are too far apart",
-                    static_cast<double>(smallest / largest)),
-        "take another treatment, or leave out what weighs next to nothing");
+        fmt::format(
+            "multipliers cannot hold these constraints: in double they do not tell the weakest from nothing "
+            "({:.1g} of the strongest, by G M^-1 G^T); masses, units or directions are too far apart{}",
+            static_cast<double>(smallest / largest),
+            plan.reason.empty() ? "" : fmt::format("; no other treatment: {}", plan.reason)),
+        "leave out what weighs next to nothing, or constraints that others nearly fulfil");
     return false;
   }
   const double least = kHolding * static_cast<double>(smallest);

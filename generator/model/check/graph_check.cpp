@@ -123,7 +123,8 @@ bool check_graph(const Mechanism& mechanism, Diagnostics& diagnostics) {
   if (!GraphCheck(mechanism, diagnostics).run()) return false;
   if (moving_joints(mechanism).empty())
     diagnostics.error(mechanism.where, "the mechanism has no degree of freedom",
-                      diagnostics.path().ends_with(".urdf") || diagnostics.path().ends_with(".sdf")
+                      diagnostics.path().ends_with(".urdf") || diagnostics.path().ends_with(".sdf") ||
+                              diagnostics.path().ends_with(".world")
                           ? "every joint is fixed; --root free lets the root link move"
                           : "every joint is fixed");
   check_states(mechanism, diagnostics);

@@ -101,10 +101,7 @@ class JointReader {
     const XmlElement* found = file_.child(element_, name);
     const XmlElement* xyz = found ? file_.child(*found, "xyz") : nullptr;
     const std::array<double, 3> given = xyz ? file_.triple_of(*xyz, kStandard) : kStandard;
-    if (xyz && file_.version > 6)
-      file_.check_attributes(*xyz, {"expressed_in"});
-    else if (xyz)
-      file_.check_attributes(*xyz, {});
+    if (xyz) file_.check_attributes(*xyz, {file_.version > 6 ? "expressed_in" : ""});
     if (xyz && name == std::string_view("axis")) joint().axis_where = file_.element(*xyz);
     if (found && file_.version > 6 && found->FirstChildElement("use_parent_model_frame"))
       file_.diagnostics().warning(file_.element(*found->FirstChildElement("use_parent_model_frame")),

@@ -93,16 +93,28 @@ class SdfReader {
                                   "motions start where the models' poses put them");
   }
 
-  /// Up to SDF 1.5 it stands in <physics>, later beside it.
+  /// The profile that is taken: the one that says so, else the first.
+  static const XmlElement* default_physics(const XmlElement& world) {
+    for (const auto* e = world.FirstChildElement("physics"); e; e = e->NextSiblingElement("physics"))
+      if (const char* chosen = e->Attribute("default");
+          chosen && (std::string_view(chosen) == "true" || std::string_view(chosen) == "1"))
+        return e;
+    return world.FirstChildElement("physics");
+  }
+
+  /// Up to SDF 1.5 it stands in <physics> (sdformat's sdf/1.5/physics.sdf), later in the <world> (sdf/1.6/world.sdf).
   void read_gravity(const XmlElement& world) {
-    const XmlElement* physics = world.FirstChildElement("physics");
-    const XmlElement* within = physics ? file_.child(*physics, "gravity") : nullptr;
     const XmlElement* gravity = file_.child(world, "gravity");
-    if (!gravity && file_.version <= 5) gravity = within;
-    if (within && gravity != within)
-      file_.diagnostics().warning(file_.element(*within), "the <gravity> of <physics> is ignored",
-                                  gravity ? "that of the <world> is taken"
-                                          : "from SDF 1.6 on it stands in the <world>; 0 0 -9.8 is taken");
+    const XmlElement* physics = file_.version <= 5 && !gravity ? default_physics(world) : nullptr;
+    for (const auto* e = world.FirstChildElement("physics"); e; e = e->NextSiblingElement("physics")) {
+      const XmlElement* within = file_.child(*e, "gravity");
+      if (within && e == physics)
+        gravity = within;
+      else if (within)
+        file_.diagnostics().warning(
+            file_.element(*within), "this <gravity> of <physics> is ignored",
+            file_.version <= 5 ? "another one is taken" : "from SDF 1.6 on it stands in the <world>");
+    }
     if (!gravity) return;
     const auto g = file_.triple_of(*gravity, {0, 0, -9.8});
     mechanism_.gravity = {g[0], g[1], g[2]};

@@ -187,7 +187,8 @@ class Assembly {
       file_.diagnostics().note(
           joint.where,
           fmt::format("joint '{}' closes a loop: it has no coordinate and no input", shown(joint.name)),
-          "its links hang on others that come before it in the file");
+          "its links hang on other joints: fixed ones, then those with springs, dampers or followers, come "
+          "first");
     Loop loop;
     loop.name = joint.name;
     loop.type = *type;

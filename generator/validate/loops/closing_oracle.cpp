@@ -124,7 +124,7 @@ constexpr long double kLeastScale = 1e-20L;
 
 /// A closed form takes rotations of the description for orthonormal, and redundant rows for fulfilled: numbers that are
 /// doubles are and do so but for their last digits.
-constexpr long double kOfForms = 16 * std::numeric_limits<double>::epsilon();
+constexpr long double kOfForms = 64 * std::numeric_limits<double>::epsilon();
 
 Closed with_least_scales(Closed c) {
   for (ScaledReal& entry : c.y) entry = entry.with_scale(kLeastScale);
