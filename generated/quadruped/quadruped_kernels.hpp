@@ -411,7 +411,7 @@ using Lanes = typename LanesOf<N, Real>::Type;
 // Steps compute short functions in themselves, where stages would wait for numbers that the one before has written. Where code shall be
 // small, and on processors that write and read one number at a time, they are called.
 #if !defined(JOURDAIN_INLINED)
-#if defined(__GNUC__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__) && (defined(__x86_64__) || defined(__aarch64__))
+#if defined(__GNUC__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__) && !defined(__NO_INLINE__) && (defined(__x86_64__) || defined(__aarch64__))
 #define JOURDAIN_INLINED inline __attribute__((always_inline))
 #else
 #define JOURDAIN_INLINED
