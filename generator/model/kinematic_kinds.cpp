@@ -173,7 +173,7 @@ double total_mass(const Mechanism& mechanism) {
 /// In C, constants `y_NAME`, `z_NAME` and `u_NAME` are the entries of coordinates, states and inputs.
 std::string entry_with_constant(const Mechanism& mechanism, const std::string& constant) {
   if (constant.size() < 3 || constant[1] != '_') return "";
-  const std::string name = constant.substr(2);
+  std::string name = constant.substr(2);
   const auto has = [&name](const auto& list) {
     return std::any_of(list.begin(), list.end(), [&](const auto& element) { return element.name == name; });
   };

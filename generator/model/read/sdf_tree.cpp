@@ -183,7 +183,7 @@ class Assembly {
             fmt::format("joint '{}' closes a loop: its spring and damper are left out", shown(joint.name)));
         break;
       }
-    if (!is_fixed && joint.coordinates.size() > 0)
+    if (!is_fixed && !joint.coordinates.empty())
       file_.diagnostics().note(
           joint.where,
           fmt::format("joint '{}' closes a loop: it has no coordinate and no input", shown(joint.name)),
