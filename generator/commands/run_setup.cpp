@@ -151,13 +151,13 @@ std::optional<RunModel> read_run(const RunArguments& arguments, int& status) {
     }
   if (!arguments.settings.empty() && !is_sound_at(model, arguments.model.path, "--set leads to this"))
     return {};
-  for (const double input : arguments.constant_input)
+  for (const double input : arguments.constant_input) {
     if (!std::isfinite(input)) {
       fmt::print(stderr, "error: --constant-input has {}: numbers are expected\n", input);
       return {};
     }
-  for (const double input : arguments.constant_input)
     if (!check_room("--constant-input", input, arguments.real)) return {};
+  }
   const std::size_t inputs = model::lay_out_coordinates(model.loaded.mechanism).input_count();
   if (!arguments.constant_input.empty() && arguments.constant_input.size() != inputs) {
     fmt::print(stderr, "error: --constant-input has {} values, the model has {} inputs\n",

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "emit/parameters.hpp"
+#include "emit/step_functions.hpp"
 #include "support/check.hpp"
 
 namespace jourdain::emit {
@@ -65,7 +66,7 @@ class Step {
     if (has_rate_) add({Call{"position_rate", {name("model"), at(k), name(numbered("v", k))}}});
   }
   void accelerations(int k = 0) {
-    add({Call{"accelerations", {name("model"), at(k), name("input"), name(numbered("a", k))}, true}});
+    add({Call{kAccelerations, {name("model"), at(k), name("input"), name(numbered("a", k))}, true}});
   }
   void rates(int k = 0) {
     position_rates(k);

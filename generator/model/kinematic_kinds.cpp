@@ -39,9 +39,9 @@ constexpr auto kRows = std::to_array<QuantityRow>({
     {KinematicQuantity::kVelocity, "velocity", true, true, false, false, kVelocity,
      "velocity: of '{}', linear (m/s) before angular (rad/s)."},
     {KinematicQuantity::kAcceleration, "acceleration", true, true, true, true, kAcceleration,
-     "acceleration: of '{}' at the given zdot, linear (m/s^2) before angular (rad/s^2)."},
+     "acceleration: of '{0}'{1}, linear (m/s^2) before angular (rad/s^2)."},
     {KinematicQuantity::kImu, "imu", true, false, true, true, kImu,
-     "specific_force: acceleration of '{}' at the given zdot less gravity, m/s^2, which an accelerometer "
+     "specific_force: acceleration of '{0}'{1} less gravity, m/s^2, which an accelerometer "
      "there "
      "reads;\nangular_velocity: rad/s, which a gyroscope reads. Both in its own axes."},
     {KinematicQuantity::kJacobian, "jacobian", true, true, false, false, kJacobian,

@@ -30,7 +30,7 @@ struct QuantityRow {
   bool takes_acceleration = false;
   bool holds_accelerations = false;  ///< prescribed accelerations are in it
   std::span<const KinematicArray> arrays;
-  std::string_view text;  ///< what it is, a sentence; {} is the frame's name
+  std::string_view text;  ///< what it is, a sentence; {} is the frame's name, {1} at which accelerations
 };
 
 const QuantityRow& quantity_row(KinematicQuantity quantity);

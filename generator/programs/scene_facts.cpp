@@ -88,13 +88,15 @@ void set_loop_facts(const model::Mechanism& mechanism, const loops::LoopPlan& pl
 }
 
 /// What each quantity is, and in which axes.
-std::string comment_of(const model::KinematicFunction& function, const model::Mechanism& mechanism) {
+/// `accelerations`: " at the given zdot"; empty where there are none.
+std::string comment_of(const model::KinematicFunction& function, const model::Mechanism& mechanism,
+                       const char* accelerations) {
   const std::string frame = function.frame ? mechanism.frames[function.frame->value].name : "";
   std::string comment;
   bool has_axes = false;
   for (const model::KinematicQuantity quantity : function.quantities) {
     const model::QuantityRow& row = model::quantity_row(quantity);
-    comment += (comment.empty() ? "" : "\n") + fmt::format(fmt::runtime(row.text), frame);
+    comment += (comment.empty() ? "" : "\n") + fmt::format(fmt::runtime(row.text), frame, accelerations);
     has_axes = has_axes || row.has_axes;
   }
   if (has_axes) comment += fmt::format("\n{}", model::axes_text(function.axes));
@@ -137,8 +139,10 @@ SceneFacts scene_facts(const model::Mechanism& mechanism, const loops::LoopPlan*
                              fmt::format(fmt::runtime(model::output_kind(output.kind).text),
                                          model::subject_name(mechanism, output)),
                              members_of(output.kind, facts.velocities.size())});
+  const char* accelerations = facts.velocities.empty() ? "" : " at the given zdot";
   for (const model::KinematicFunction& function : mechanism.kinematics)
-    facts.kinematics.push_back({function.name, comment_of(function, mechanism), function.quantities});
+    facts.kinematics.push_back(
+        {function.name, comment_of(function, mechanism, accelerations), function.quantities});
   return facts;
 }
 

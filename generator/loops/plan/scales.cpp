@@ -148,7 +148,7 @@ void set_sharing_lengths(const model::Mechanism& mechanism, const std::vector<Co
   const std::vector<bool> is_length = lengths_of(mechanism);
   const long double size = plan.closing_regularisation / kLeast;
   for (const std::size_t r : plan.sharing) {
-    const bool scaled = !is_length[r] || largest[at(r)] < kLight * size;
+    const bool scaled = largest[at(r)] > 0 && (!is_length[r] || largest[at(r)] < kLight * size);
     plan.row_length[r] = scaled ? static_cast<double>(std::sqrt(size / largest[at(r)])) : 1;
   }
 }

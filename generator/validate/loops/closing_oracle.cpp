@@ -136,8 +136,7 @@ Closed with_least_scales(Closed c) {
 std::vector<Expected> closing_expected(const LoopScene& scene, const State& open,
                                        const ir::Program& program) {
   const Closed c = with_least_scales(closed(scene, open));
-  Expected expected{c.oracle, {}};
-  expected.scales_are_unknown = scene.plan.closed_form.has_value();
+  Expected expected{c.oracle, {}, scene.plan.closed_form.has_value()};
   if (scene.plan.closed_form) expected.allowed = kOfForms;
   // Determinants of velocities are over those at the start, and may be larger elsewhere.
   if (!scene.closure.carried().empty()) expected.largest_share = std::numeric_limits<double>::max();
