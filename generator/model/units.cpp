@@ -95,6 +95,9 @@ class Parser {
     if (at_end() || text_ == "-") return {};
     Unit unit = product(0);
     if (!at_end()) fail(position_, "')' without '('");
+    // One pair around all of it: "(rad/s)" of "rpm".
+    if (unit.si.starts_with('(') && unit.si.find(')') == unit.si.size() - 1 && unit.si.rfind('(') == 0)
+      unit.si = unit.si.substr(1, unit.si.size() - 2);
     return unit;
   }
 

@@ -152,13 +152,19 @@ std::string nothing_text(const Study& study, const std::string& asked, const std
   std::copy_if(study.work.points.begin(), study.work.points.end(), std::back_inserter(within),
                [&](const WorkPoint& point) { return keeps_within(question, point); });
   if (within.empty()) return fmt::format("no method and step of this study keep within {}{}", asked, remark);
-  if (question.budget && std::none_of(within.begin(), within.end(), [&](const WorkPoint& point) {
-        return divides_period(question, point.h);
-      }))
+  const auto dividing = std::count_if(within.begin(), within.end(), [&](const WorkPoint& point) {
+    return divides_period(question, point.h);
+  });
+  if (question.budget && dividing == 0)
     return fmt::format("within {}: no recommendation, no step of this study that costs no more divides {}{}",
                        asked, time_text(question.period), remark);
-  return fmt::format("within {}: no recommendation, what keeps within it is unstable{}{}", asked,
-                     question.tolerance ? ", or a shorter step of the same method does not" : "", remark);
+  std::string or_else;
+  if (question.tolerance)
+    or_else = ", or a shorter step of the same method does not";
+  else if (std::size_t(dividing) < within.size())
+    or_else = fmt::format(", or has a step that does not divide {}", time_text(question.period));
+  return fmt::format("within {}: no recommendation, what keeps within it is unstable{}{}", asked, or_else,
+                     remark);
 }
 
 std::string digits_text(InFiftyDigits digits) {

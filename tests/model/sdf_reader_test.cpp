@@ -123,6 +123,27 @@ TEST(ReadSdf, PosesAreRelativeToAnyFrame) {
   expect_near(of.frame("f").placement.position, {0, 1, 0});
 }
 
+/// The pose of a model may be that of a frame in it, of a model inside too; then the model's own follows.
+TEST(ReadSdf, ThePoseOfAModelIsThatOfItsPlacementFrame) {
+  const auto root = [](const std::string& frame, const std::string& at) {
+    return read("<sdf version=\"1.9\"><model name=\"m\" placement_frame=\"" + frame + "\">" + pose(at) +
+                "<frame name=\"f\">" + pose("0 0 1 0 0 1.5707963267948966", "b") + "</frame>" + kArms +
+                "<model name=\"tool\" placement_frame=\"tip\">" + pose("0 5 0 0 0 0", "a") +
+                link("tip", pose("0 0 0.5 0 0 0")) + "</model>" + kShoulder +
+                joint("elbow", "revolute", "a", "b") + joint("hold", "fixed", "b", "tool::tip") +
+                "</model></sdf>");
+  };
+  // a stands at (1, 2, 3) of the model, which is turned so that f is as given.
+  const Read of_link = root("a", "7 8 9 0 0 0");
+  EXPECT_EQ(of_link.diagnostics, "");
+  expect_near(of_link.joint("shoulder").placement.position, {7, 8, 9});
+  const Read of_frame = root("f", "0 0 0 0 0 2.0707963267948966");
+  EXPECT_EQ(of_frame.diagnostics, "");
+  expect_near(of_frame.joint("shoulder").placement.position, {0, 0, -2});
+  // The tip of the tool is where the tool's pose puts it: 5 beside a.
+  expect_near(root("tool::tip", "0 0 0 0 0 0").joint("shoulder").placement.position, {0, -5, 0});
+}
+
 /// Frames that say nothing else are attached to the model's frame, and that to the link that the model names.
 TEST(ReadSdf, TheFrameOfAModelIsAttachedToItsCanonicalLink) {
   const auto parent = [](const std::string& attribute, const std::string& inside = "") {

@@ -31,7 +31,9 @@ TEST(Units, HaveTheirFactorsDimensionsAndSpellingsInSi) {
                         {"mm^2", 1e-6, {2, 0, 0, 0}, "m^2"},
                         {"1/s", 1, {0, 0, -1, 0}, "1/s"},
                         {"s^-1", 1, {0, 0, -1, 0}, "s^-1"},
-                        {"rpm", std::numbers::pi / 30, {0, 0, -1, 0}, "(rad/s)"},
+                        {"rpm", std::numbers::pi / 30, {0, 0, -1, 0}, "rad/s"},
+                        {"rpm/rpm", 1, {}, "(rad/s)/(rad/s)"},
+                        {"N m/rpm", 30 / std::numbers::pi, {2, 1, -1, 0}, "N m/(rad/s)"},
                         {"deg", std::numbers::pi / 180, {}, "rad"},
                         {"N m s/rad", 1, {2, 1, -1, 0}, "N m s/rad"},
                         {"N*mm/deg", 0.18 / std::numbers::pi, {2, 1, -2, 0}, "N*m/rad"},
@@ -113,7 +115,7 @@ TEST(Units, OfParametersAreConverted) {
   EXPECT_EQ((*read_.parameters[0].range)[0], 0.01);
   EXPECT_EQ((*read_.parameters[0].range)[1], 0.2);
   EXPECT_DOUBLE_EQ(read_.parameters[1].value, 4 * std::numbers::pi);
-  EXPECT_EQ(read_.parameters[1].unit, "(rad/s)");
+  EXPECT_EQ(read_.parameters[1].unit, "rad/s");
   EXPECT_DOUBLE_EQ(read_.parameters[2].value, std::numbers::pi / 6);
   EXPECT_EQ(read_.parameters[3].value, 2);
   EXPECT_EQ(read_.parameters[3].unit, "N m");

@@ -357,6 +357,10 @@ TEST(AdviceText, SaysWhyNothingIsRecommended) {
   EXPECT_THAT(text(), testing::EndsWith("is unstable, or a shorter step of the same method does not"));
   point.largest.position = 2e-3;
   EXPECT_THAT(text(), testing::HasSubstr("no method and step"));
+  study.options.question = {{}, 300e-9, 0.7e-3};
+  study.work.points.push_back(study.work.points.front());
+  study.work.points.back().h = 1e-3;
+  EXPECT_THAT(text(), testing::EndsWith("is unstable, or has a step that does not divide 700 us"));
 }
 
 TEST(AdviceText, SuggestsNoReferenceThatWasTaken) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
 #include <vector>
 
 namespace jourdain::model {
@@ -11,6 +12,8 @@ using support::shown;
 namespace {
 
 constexpr std::size_t kMost = 5000;
+/// How the whole names of the models' own frames end.
+constexpr std::string_view kModel = "__model__";
 
 }  // namespace
 
@@ -50,14 +53,18 @@ void SdfFrames::settle() {
       frame.base = find(frame.scope, frame.base_name, frame.where, who).value_or("");
     if (!frame.attached_name.empty())
       frame.attached = find(frame.scope, frame.attached_name, frame.where, who).value_or("");
-    for (std::string* whole : {&frame.base, &frame.attached})
+    if (!frame.placed_name.empty())
+      frame.placed = find(name.substr(0, name.size() - kModel.size()), frame.placed_name, frame.placed_where,
+                          "'placement_frame' names")
+                         .value_or("");
+    for (std::string* whole : {&frame.base, &frame.attached, &frame.placed})
       if (!frames_.contains(*whole)) *whole = "";  // its own name is an error
   }
 }
 
 SdfPose SdfFrames::pose(const std::string& name) {
   Frame& frame = frames_.at(name);
-  if (frame.is_resolved) return frame.pose;
+  if (frame.is_resolved) return frame.in_world;
   if (frame.is_visited) {
     file_.error(frame.where, fmt::format("the pose of '{}' is relative to itself", shown(name)));
     file_.complete().structure = false;
@@ -65,10 +72,36 @@ SdfPose SdfFrames::pose(const std::string& name) {
     return {};
   }
   frame.is_visited = true;
-  const SdfPose in_world = pose(frame.base) * frame.pose;
-  frame.pose = in_world;
+  frame.in_world = pose(frame.base) * pose_in_base(name);
   frame.is_resolved = true;
-  return in_world;
+  return frame.in_world;
+}
+
+SdfPose SdfFrames::pose_in_base(const std::string& name) {
+  Frame& frame = frames_.at(name);
+  if (frame.placed.empty() || frame.is_placed) return frame.pose;
+  frame.is_placed = true;
+  if (const std::optional<SdfPose> placed = pose_within(frame.placed, name))
+    frame.pose = frame.pose * relative(*placed, {});
+  return frame.pose;
+}
+
+std::optional<SdfPose> SdfFrames::pose_within(const std::string& name, const std::string& model) {
+  SdfPose result;
+  std::string at = name;
+  for (std::size_t steps = 0; at != model; ++steps) {
+    if (at.empty() || steps > frames_.size()) {
+      const Frame& frame = frames_.at(model);
+      file_.error(frame.placed_where,
+                  fmt::format("'{}' is not placed in its model's frame", shown(frame.placed_name)),
+                  "its pose would follow from that of the model, and that from it");
+      file_.complete().structure = false;
+      return {};
+    }
+    result = pose_in_base(at) * result;
+    at = frames_.at(at).base;
+  }
+  return result;
 }
 
 std::optional<BodyIndex> SdfFrames::link(const std::string& name) {

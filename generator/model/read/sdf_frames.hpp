@@ -19,12 +19,17 @@ class SdfFrames {
     std::string scope = {};              ///< of the names that follow
     std::string base_name = {};          ///< what the pose is relative to, as the file has it; or empty
     std::string attached_name = {};      ///< what it moves with, likewise
+    std::string placed_name = {};        ///< the frame in it that the pose is of, where not of itself
+    SourceRange placed_where = {};       ///< of that name
     std::string base = {};               ///< whole; of where the file does not say
     SdfPose pose = {};                   ///< in that
+    std::string placed = {};             ///< whole; empty: the frame itself
     std::string attached = {};           ///< whole; empty and no link: the world
     std::optional<BodyIndex> link = {};  ///< of a link
     SourceRange where = {};              ///< of its name
-    bool is_resolved = false;            ///< the pose is in the world
+    bool is_placed = false;              ///< `pose` is of the frame itself, not of `placed`
+    SdfPose in_world = {};               ///< where that is known
+    bool is_resolved = false;
     bool is_visited = false;
   };
 
@@ -46,6 +51,11 @@ class SdfFrames {
   std::optional<BodyIndex> link(const std::string& name);
 
  private:
+  /// In its base: that of a model whose pose is that of a frame in it follows from where that frame is in the model.
+  SdfPose pose_in_base(const std::string& name);
+  /// Of `name` in the model frame `model`, around it; nothing after a diagnostic where it is not placed from there.
+  std::optional<SdfPose> pose_within(const std::string& name, const std::string& model);
+
   SdfFile& file_;
   std::map<std::string, Frame> frames_;
 };

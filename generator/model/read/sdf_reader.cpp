@@ -125,14 +125,14 @@ class SdfReader {
                   const std::string& scope, bool in_static) {
     file_.check_elements(model, {"static", "pose", "link", "joint", "frame", "model", "include", "plugin",
                                  "gripper", "self_collide", "allow_auto_disable", "enable_wind"});
-    if (const char* placed = model.Attribute("placement_frame"); placed && *placed)
-      file_.error(file_.value(model, "placement_frame"), "'placement_frame' of a <model> is not read",
-                  "give the pose of the model's own frame");
+    const char* placed = model.Attribute("placement_frame");
     const bool is_static = file_.flag_in(model, "static", false) || in_static;
     SourceRange where = file_.element(model);
     const std::string frame = scope + "__model__";
     frames_.add(frame, {.scope = outer,
                         .base_name = file_.pose_base(model),
+                        .placed_name = placed ? placed : "",
+                        .placed_where = placed ? file_.value(model, "placement_frame") : where,
                         .base = base,
                         .pose = file_.pose_in(model, where),
                         .attached = canonical_link(model, scope),
