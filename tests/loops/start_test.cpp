@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "loops/plan/plan.hpp"
 #include "model/read/read.hpp"
 
@@ -101,6 +103,29 @@ TEST(LoopStart, APositionThatIsGivenIsKeptWhereOthersCanCloseTheLoops) {
   ASSERT_TRUE(result.plan) << result.messages;
   EXPECT_EQ(result.plan->y[0], 1.2);
   EXPECT_NE(result.plan->y[1], 0);
+}
+
+/// All bars on one line, as they are without initial positions: no step leaves it.
+TEST(LoopStart, DeadPointsAreLeftAfterAWarning) {
+  const auto expect_closed = [](const Result& result) {
+    ASSERT_TRUE(result.plan) << result.messages;
+    EXPECT_THAT(result.messages, HasSubstr("warning: from the initial positions no step closes the loops"));
+    const std::vector<double>& y = result.plan->y;
+    EXPECT_NEAR(0.12 * std::cos(y[0]) + 0.36 * std::cos(y[0] + y[1]), 0.4 + 0.24 * std::cos(y[2]), 1e-14);
+    EXPECT_NEAR(0.12 * std::sin(y[0]) + 0.36 * std::sin(y[0] + y[1]), 0.24 * std::sin(y[2]), 1e-14);
+  };
+  const Result free = plan(four_bar("", "", ""));
+  expect_closed(free);
+  EXPECT_EQ(free.plan->y, plan(four_bar("", "", "")).plan->y);
+  expect_closed(plan(four_bar("", "", "", "[loops]\ntreatment = \"multipliers\"\n")));
+  for (const char* loops : {"", "[loops]\nindependent = [\"crank\"]\n"}) {
+    const Result at_zero = plan(four_bar(*loops ? "" : "initial_position = 0", "", "", loops));
+    expect_closed(at_zero);
+    EXPECT_EQ(at_zero.plan->y[0], 0);
+  }
+  const Result given = plan(four_bar("initial_position = 0", "initial_position = 0", "initial_position = 0"));
+  EXPECT_FALSE(given.plan);
+  EXPECT_THAT(given.messages, HasSubstr("cannot be closed from the initial values"));
 }
 
 TEST(LoopStart, PositionsWithFewDigitsAssembleNearby) {

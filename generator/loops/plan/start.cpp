@@ -12,6 +12,7 @@
 #include "model/loop_kinds.hpp"
 #include "reference/minimal.hpp"
 #include "support/matrix_index.hpp"
+#include "support/uniform.hpp"
 
 namespace jourdain::loops {
 
@@ -103,7 +104,38 @@ class StartSearch {
     start_.configuration = closure_.assembled(kept, all_but(independent_, {}));
     if (is_start(start_.configuration)) return true;
     start_.configuration = closure_.assembled(initial, all_but(independent_, {}));
-    return is_closed(start_.configuration) ? report_reversed() : report_open();
+    if (is_closed(start_.configuration)) return report_reversed();
+    return find_beside(initial, given, given) || find_beside(initial, given, {}) || report_open();
+  }
+
+  /// From a dead point, such as bars that all lie on one line, no step leads anywhere: from others beside it, the same
+  /// ones on every machine. Coordinates in `given` start as they are, those in `held` stay.
+  bool find_beside(const Configuration& initial, const Entries& given, const Entries& held) {
+    constexpr int kTries = 4;  // at each distance
+    support::Uniform uniform(4201);
+    const std::vector<bool> moving = all_but(independent_, given);
+    for (const double distance : {0.2, 0.6, 1.5})  // rad or m
+      for (int i = 0; i < kTries; ++i) {
+        Vector by = Vector::Zero(at(moving.size()));
+        for (std::size_t k = 0; k < moving.size(); ++k)
+          if (moving[k]) by[at(k)] = uniform(-distance, distance);
+        const Configuration found =
+            closure_.assembled(closure_.displaced(initial, by), all_but(independent_, held));
+        if (!is_start(found)) continue;
+        start_.configuration = found;
+        report_beside();
+        return true;
+      }
+    return false;
+  }
+
+  void report_beside() {
+    const model::Loop& loop = mechanism_.loops.front();
+    diagnostics_.warning(
+        loop.where,
+        "from the initial positions no step closes the loops: they are closed from others beside them",
+        "there may be several ways to close them: for another one, give joints positions that are near to "
+        "it");
   }
 
   bool report_open() {

@@ -24,7 +24,8 @@ struct Start {
 /// stay as they are.
 ///
 /// Positions that the description gives stay where the others can close the loops alone; otherwise all move
-/// from as near as those come. Velocities that it gives stay, to the bit, where they agree with the loops;
+/// from as near as those come, and where that closes nothing, as at a dead point, from positions beside them, after a
+/// warning. Velocities that it gives stay, to the bit, where they agree with the loops;
 /// given zeros yield to other given ones, and ones that agree to 1e-6 of the largest count as rounded and move
 /// to the nearest that agree. Nothing after diagnostics: loops that stay open or close with axes against each
 /// other, given velocities that conflict.
