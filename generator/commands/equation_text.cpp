@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <vector>
 
+#include "commands/equation_names.hpp"
 #include "compile/compile.hpp"
 #include "dynamics/harmonics.hpp"
 #include "emit/unique_names.hpp"
@@ -28,30 +30,40 @@ constexpr std::size_t kExpandedCoordinates = 3;
 /// Prints a program as one equation per named or shared value, then its outputs.
 class EquationPrinter {
  public:
-  EquationPrinter(const ir::Program& program, const model::Mechanism& mechanism, bool latex)
-      : program_(program), mechanism_(mechanism), latex_(latex), uses_(ir::use_counts(program)) {
-    emit::Names names({});
+  EquationPrinter(const ir::Program& program, const PrintedNames& printed)
+      : program_(program),
+        mechanism_(printed.mechanism),
+        spelling_(printed.spelling),
+        latex_(spelling_.is_latex()),
+        uses_(ir::use_counts(program)) {
+    for (const ir::Output& output : program.outputs) spelling_.reserve(output_name(output));
+    emit::Names identifiers({});
+    const auto unused = [&](const std::string& label, const std::string& otherwise) {
+      return spelling_.unused(identifiers.unique(label, otherwise), "_v");
+    };
     for (std::size_t i = 0; i < program.nodes.size(); ++i) {
       const bool operation = ir::operand_count(program.nodes[i].op) > 0;
       const bool named = operation && (uses_[i] > 1 || !program.labels[i].empty());
-      names_.push_back(named ? names.unique(program.labels[i], fmt::format("t{}", i)) : "");
+      names_.push_back(named ? unused(program.labels[i], fmt::format("t{}", i)) : "");
     }
     for (const ir::Node& node : program.nodes)
       if (node.op == Op::kEntry && array_names_.count(array_of(node)) == 0) {
         arrays_.push_back(array_of(node));
-        array_names_[arrays_.back()] = names.unique("", fmt::format("array{}", arrays_.size()));
+        array_names_[arrays_.back()] = unused("", fmt::format("array{}", arrays_.size()));
       }
   }
 
   std::string print() const {
     std::string text;
+    if (has(Op::kWhereNegative)) text += meaning("where_negative(a, b): b where a < 0, else 0");
+    if (has(Op::kWhereNotNegative)) text += meaning("where_not_negative(a, b): 0 where a < 0, else b");
     if (!arrays_.empty())
-      text += latex_ ? "  % operatorname{entry}(x, array): that of number floor(x), the first is 0; beyond "
-                       "an end that\n"
-                     : "  entry(x, array): that of number floor(x), the first is 0; beyond an end that\n";
-    for (const std::uint32_t array : arrays_)
-      text += equation(spelt(array_names_.at(array)),
-                       fmt::format("({})", fmt::join(support::array_of(array), ", ")));
+      text += meaning("entry(x, array): that of number floor(x), the first is 0; beyond an end that");
+    for (const std::uint32_t array : arrays_) {
+      std::vector<std::string> entries;
+      for (const double entry : support::array_of(array)) entries.push_back(number(entry));
+      text += equation(spelt(array_names_.at(array)), fmt::format("({})", fmt::join(entries, ", ")));
+    }
     for (std::size_t i = 0; i < names_.size(); ++i)
       if (!names_[i].empty()) text += equation(spelt(names_[i]), expression(ValueId(i), true).text);
     for (const ir::Output& output : program_.outputs)
@@ -60,12 +72,25 @@ class EquationPrinter {
   }
 
  private:
+  bool has(Op op) const {
+    return std::any_of(program_.nodes.begin(), program_.nodes.end(),
+                       [op](const ir::Node& node) { return node.op == op; });
+  }
+
+  std::string meaning(const std::string& sentence) const {
+    return fmt::format("  {}{}\n", latex_ ? "% " : "", sentence);
+  }
+
   struct Text {
     std::string text;
     int strength;  ///< 0 sum, 1 product, 2 atom
   };
 
-  std::string spelt(const std::string& name) const { return latex_ ? dynamics::latex_name(name) : name; }
+  std::string spelt(const std::string& name) const { return spelling_(name); }
+
+  std::string number(double value) const {
+    return latex_ ? dynamics::latex_number(value) : fmt::format("{}", value);
+  }
 
   std::string equation(const std::string& left, const std::string& right) const {
     return latex_ ? fmt::format("  {} &= {} \\\\\n", left, right) : fmt::format("  {} = {}\n", left, right);
@@ -120,7 +145,7 @@ class EquationPrinter {
     const std::string function = latex_ ? "\\" : "";
     switch (node.op) {
       case Op::kLiteral:
-        return {fmt::format("{}", node.literal), node.literal < 0 ? 0 : 2};
+        return literal(node.literal);
       case Op::kLeaf:
         return {leaf(node), 2};
       case Op::kNegate:
@@ -147,6 +172,11 @@ class EquationPrinter {
     }
   }
 
+  Text literal(double value) const {
+    const std::string text = number(value);
+    return {text, value < 0 ? 0 : text.find("\\cdot") != std::string::npos ? 1 : 2};
+  }
+
   Text call(Op op, const std::string& first, const std::string& more) const {
     std::string name = ir::op_name(op);
     if (latex_) {
@@ -158,6 +188,7 @@ class EquationPrinter {
 
   const ir::Program& program_;
   const model::Mechanism& mechanism_;
+  Spelling spelling_;
   bool latex_;
   std::vector<std::size_t> uses_;
   std::vector<std::string> names_;
@@ -188,19 +219,20 @@ std::string block(const std::string& title, const std::string& lines, bool latex
 }
 
 /// Rows of all loops.
-std::string constraints_text(const model::Mechanism& mechanism, const dynamics::Equations& equations,
-                             bool latex) {
+std::string constraints_text(const PrintedNames& names, const dynamics::Equations& equations) {
+  const model::Mechanism& mechanism = names.mechanism;
+  const bool latex = names.spelling.is_latex();
   if (mechanism.loops.empty()) return "";
   const loops::ConstraintPrograms programs = loops::constraint_programs(mechanism, equations).front();
-  const auto print = [&](const ir::Program& program) {
-    return EquationPrinter(program, mechanism, latex).print();
-  };
+  const auto print = [&](const ir::Program& program) { return EquationPrinter(program, names).print(); };
   return block("constraints with named intermediates", print(programs.value), latex) +
          block("their Jacobian with named intermediates, entries that are not zero", print(programs.jacobian),
                latex);
 }
 
-std::string legend(const model::Mechanism& mechanism, bool latex) {
+std::string legend(const PrintedNames& names) {
+  const model::Mechanism& mechanism = names.mechanism;
+  const bool latex = names.spelling.is_latex();
   std::string text;
   const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
   const char* mark = latex ? "%" : "";
@@ -214,6 +246,8 @@ std::string legend(const model::Mechanism& mechanism, bool latex) {
     text += fmt::format("{}  u{}: {}\n", mark, k, layout.input_names[k]);
   const std::vector<std::string> rows = loops::row_names(mechanism);
   for (std::size_t r = 0; r < rows.size(); ++r) text += fmt::format("{}  g[{}]: {}\n", mark, r, rows[r]);
+  for (const PrintedNames::Change& change : names.changes)
+    text += fmt::format("{}  {}: parameter {}\n", mark, change.printed, change.parameter);
   return text;
 }
 
@@ -229,14 +263,16 @@ bool has_expanded_form(const model::Mechanism& mechanism) {
 
 }  // namespace
 
-std::string equations_text(const model::Mechanism& mechanism, bool latex) {
+std::string equations_text(const model::Mechanism& described, bool latex) {
+  const PrintedNames names = printed_names(described, latex);
+  const model::Mechanism& mechanism = names.mechanism;
   const dynamics::Equations equations = dynamics::derive_equations(mechanism);
   const bool closed = !mechanism.loops.empty();
   std::string text =
       fmt::format("{}{}: M zdot = k_bar - q_bar{}, dy/dt = {}{}\n", latex ? "% " : "", mechanism.name,
                   closed ? " - G^T lambda" : "", equations.ydot.empty() ? "z" : "Z z",
                   closed ? ", g(y, t) = 0, G z + g_t = 0; all coordinates of the tree" : "");
-  text += legend(mechanism, latex);
+  text += legend(names);
   if (!latex) text += "\n";
   if (equations.M.size() <= kExpandedCoordinates && has_expanded_form(mechanism))
     text += block("Expanded", expanded(equations, latex), latex);
@@ -245,8 +281,8 @@ std::string equations_text(const model::Mechanism& mechanism, bool latex) {
                                                                   programs::scene_facts(mechanism)))
            .functions)
     text += block(fmt::format("{} with named intermediates", program.name),
-                  EquationPrinter(program, mechanism, latex).print(), latex);
-  text += constraints_text(mechanism, equations, latex);
+                  EquationPrinter(program, names).print(), latex);
+  text += constraints_text(names, equations);
   return text;
 }
 

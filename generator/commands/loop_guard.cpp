@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "loops/rows/disagreement.hpp"
 #include "model/loop_kinds.hpp"
@@ -15,6 +16,8 @@ namespace {
 
 /// m; the next closing makes good what is less. What rounding leaves is below, in float, too.
 constexpr double kOpen = 1e-9, kRoundings = 32;
+/// Number types that round by more are not double.
+constexpr double kDouble = std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
@@ -40,8 +43,9 @@ std::string LoopGuard::problem(const studies::Point<double>& point) const {
   if (!(closing.left_open <= std::max(kOpen, kRoundings * flow_.table().unit_roundoff)))
     return fmt::format(
         "at t = {:g} s closing the loops leaves them open by {:.2g} m: a step of {:g} s is too long (take a "
-        "shorter one), or there is no way on: no positions close them",
-        point.t, closing.left_open, h_);
+        "shorter one), {}there is no way on: no positions close them",
+        point.t, closing.left_open, h_,
+        flow_.table().unit_roundoff > kDouble ? "float is too coarse there (run it in double), or " : "or ");
   if (!loaded_.plan()->proof) return "";
   return fmt::format(
       "at t = {:g} s a step of {:g} s is too long: closing the loops moved positions by {:.2g} (rad, m), "

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <string>
 
 #include "dynamics/high_precision.hpp"
 #include "kinematics/function_calls.hpp"
@@ -223,10 +224,21 @@ std::string to_text(const Harmonics& harmonics, bool latex) {
     const double size = std::fabs(term.number);
     const char* times = latex ? " " : "*";
     const std::string factors = fmt::format("{}", fmt::join(term.factors, times));
-    if (size != 1 || factors.empty()) text += fmt::format("{}{}", size, factors.empty() ? "" : times);
+    if (size != 1 || factors.empty())
+      text += (latex ? latex_number(size) : fmt::format("{}", size)) + (factors.empty() ? "" : times);
     text += factors;
   }
   return text.empty() ? "0" : text;
+}
+
+std::string latex_number(double value) {
+  const std::string text = fmt::format("{}", value);
+  const std::size_t e = text.find('e');
+  if (e == std::string::npos) return text;
+  const std::string digits = text.substr(0, e),
+                    power = fmt::format("10^{{{}}}", std::stoi(text.substr(e + 1)));
+  if (digits == "1" || digits == "-1") return digits.substr(0, digits.size() - 1) + power;
+  return digits + " \\cdot " + power;
 }
 
 std::string latex_name(const std::string& name) {

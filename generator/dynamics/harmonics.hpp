@@ -43,6 +43,9 @@ Harmonics expand(const Equations& equations, const Ex& value);
 /// "m2*l1*l2*cos(y1) + …" with terms and factors in an order that depends on the names alone; LaTeX if asked for.
 std::string to_text(const Harmonics& harmonics, bool latex);
 
+/// "2 \\cdot 10^{-7}" of 2e-07.
+std::string latex_number(double value);
+
 /// "y_{1}" from "y1", "\\mathrm{mass}_{2}" from "mass2".
 std::string latex_name(const std::string& name);
 

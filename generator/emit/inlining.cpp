@@ -13,7 +13,8 @@ bool is_short(const ir::Module& module, const CutFunction& cut) {
 
 }  // namespace
 
-void inline_short_functions(const ir::Module& module, ModelCode& code) {
+void inline_short_functions(const std::vector<programs::FunctionInfo>& functions, const ir::Module& module,
+                            ModelCode& code) {
   const auto accelerations =
       std::find_if(code.support.functions.begin(), code.support.functions.end(),
                    [](const Function& function) { return function.name == kAccelerations; });
@@ -26,6 +27,8 @@ void inline_short_functions(const ir::Module& module, ModelCode& code) {
     cut.function.is_inlined = is_short(module, cut);
     if (is_forward) accelerations->is_inlined = cut.function.is_inlined;
   }
+  for (std::size_t k = 0; k < functions.size(); ++k)
+    code.functions[k].function.has_stages = functions[k].stepper && accelerations->is_inlined;
 }
 
 }  // namespace jourdain::emit

@@ -195,6 +195,7 @@ struct Function {
   Statements body = {};
   bool only_sampled = false;  ///< does nothing where inputs are held over a step
   bool is_inlined = false;    ///< compiled into whatever calls it
+  bool has_stages = false;    ///< a step that holds inlined functions
 };
 
 /// Members declared together, e.g. five arrays of one length.

@@ -15,6 +15,7 @@ namespace jourdain::readback {
 inline constexpr std::string_view kFunctionMacro = "JOURDAIN_FUNCTION";
 /// In front of what steps compute in themselves.
 inline constexpr std::string_view kInlinedMacro = "JOURDAIN_INLINED";
+inline constexpr std::string_view kStagesMacro = "JOURDAIN_STAGES";
 
 /// What C text is read for.
 struct CText {

@@ -16,6 +16,13 @@ inline constexpr const char* kNarrowVectors[] = {
     "#if defined(__GNUC__) && !defined(__clang__) && __GNUC__ > 7 && defined(__AVX512F__)",
     "#pragma GCC target(\"prefer-vector-width=256\")", "#endif"};
 
+/// In front of sources whose steps hold short functions: in those GCC packs nothing.
+inline constexpr const char* kStages[] = {
+    "#if !defined(JOURDAIN_STAGES) && defined(__GNUC__) && !defined(__clang__) && !defined(__INTEL_COMPILER) "
+    "&& !defined(__CUDACC__) && "
+    "!defined(__HIPCC__)",
+    "#define JOURDAIN_STAGES __attribute__((optimize(\"no-tree-vectorize\")))", "#endif"};
+
 /// Files, members, sizes, defaults, limits, names.
 void check_structs(const Unit& unit, const Expected& expected, Findings& findings);
 

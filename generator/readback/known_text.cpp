@@ -165,6 +165,9 @@ constexpr const char* kInlined = R"(#if !defined(JOURDAIN_INLINED)
 #define JOURDAIN_INLINED
 #endif
 #endif
+#if !defined(JOURDAIN_STAGES)
+#define JOURDAIN_STAGES
+#endif
 )";
 
 // Of packs: numbers, sines and cosines that a pack may bring itself.

@@ -1,6 +1,8 @@
 // Members, sizes, defaults and names.
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "readback/api.hpp"
@@ -145,6 +147,9 @@ void check_files(const Unit& unit, const Expected& expected, Findings& findings)
       {"#pragma once", "#ifndef JOURDAIN_FUNCTION", "#define JOURDAIN_FUNCTION", "#endif"},
       {"#pragma once", "#include <math.h>", fmt::format("#include \"{}.hpp\"", expected.name)},
       {std::begin(kNarrowVectors), std::end(kNarrowVectors)}};
+  const Texts& found = unit.directives[2];
+  if (std::find(found.begin(), found.end(), kStages[0]) != found.end())
+    wanted[2].insert(wanted[2].end(), std::begin(kStages), std::end(kStages));
   wanted[2].push_back(fmt::format("#include \"{}_kernels.hpp\"", expected.name));
   if (!expected.user_functions().empty())
     wanted[2].push_back(fmt::format("#include \"{}_functions.hpp\"", expected.name));

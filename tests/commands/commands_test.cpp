@@ -437,29 +437,6 @@ TEST(Check, SaysOkInOneLine) {
   EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 1);
 }
 
-TEST(Equations, PrintTheSameTextOnEveryRun) {
-  const support::ProcessResult first = jourdain({"equations", "models/double_pendulum.toml", "--latex"});
-  expect(first, 0, "2 l_{1} l_{2} m_{2} \\cos(y_{1})");
-  EXPECT_EQ(jourdain({"equations", "models/double_pendulum.toml", "--latex"}).output, first.output);
-  expect(jourdain({"equations", "models/panda.toml"}), 0, "M[0][6] = ");
-}
-
-TEST(Equations, HoldTheNumbersOfTables) {
-  const support::TemporaryFolder folder;
-  const std::string model = folder.path() + "/cam.toml";
-  support::write_file(
-      model,
-      "[model]\nname = \"cam\"\n[[table]]\nname = \"lift\"\nx = [0, 1, 2, 3, 4]\nvalues = [1, 3, 2, 5, 7]\n"
-      "[[body]]\nname = \"b\"\nmass = 2\n[[joint]]\nname = \"x\"\ntype = \"prismatic\"\nparent = \"world\"\n"
-      "child = \"b\"\n[[force]]\njoint = \"x\"\nvalue = \"lift(x)\"\n");
-  const support::ProcessResult plain = jourdain({"equations", model});
-  expect(plain, 0, "entry(y0, array1)");
-  expect(plain, 0, " = (1, 3, 2, 5)\n");
-  expect(plain, 0, " = (2, -1, 3, 2)\n");
-  expect(plain, 0, "entry(x, array): that of number floor(x)");
-  expect(jourdain({"equations", model, "--latex"}), 0, " &= (2, -1, 3, 2) \\\\\n");
-}
-
 TEST(Simulate, WritesAHeaderAndARowForEachInterval) {
   const support::TemporaryFolder folder;
   const std::string csv = folder.path() + "/p.csv";

@@ -90,6 +90,52 @@ TEST(MjcfActuators, PassOnWhatAClassSaysOfAnotherKind) {
   EXPECT_NEAR(force(R"(<motor joint="j"/>)"), 0.7, kRounding);
 }
 
+// Gains of MuJoCo 2.2.2 (libmujoco-dev of Debian 12), which <motor> and <velocity> share with 3.
+TEST(MjcfActuators, TakeGainsOfClassesOfOtherKinds) {
+  const auto of = [](const std::string& level, const std::string& element) {
+    return read(hinge("", "<default>" + level + "</default><actuator>" + element + "</actuator>"));
+  };
+  const auto gain = [&](const std::string& level, const std::string& element) {
+    const Read result = of(level, element);
+    EXPECT_EQ(result.messages, "") << level;
+    return terms(result.mechanism, 0, 0, 0).q_bar[0] - terms(result.mechanism, 0, 0, 1).q_bar[0];
+  };
+  const std::string velocity = R"(<velocity joint="j"/>)", motor = R"(<motor joint="j"/>)";
+  EXPECT_NEAR(gain(R"(<cylinder diameter="2"/>)", velocity), std::numbers::pi, kRounding);
+  EXPECT_NEAR(gain(R"(<cylinder area="5" timeconst="1"/>)", velocity), 5, kRounding);
+  EXPECT_NEAR(gain(R"(<muscle timeconst="0.01 0.04"/>)", velocity), 0.75, kRounding);
+  EXPECT_NEAR(gain(R"(<muscle range="0.6 1"/>)", velocity), 0.6, kRounding);
+  EXPECT_NEAR(gain(R"(<muscle timeconst="0.01 0.04"/>)", motor), 1, kRounding);
+  EXPECT_NEAR(gain(R"(<adhesion gain="4"/>)", velocity), 4, kRounding);
+  EXPECT_NEAR(gain(R"(<intvelocity kp="7"/>)", velocity), 7, kRounding);
+  EXPECT_NEAR(gain(R"(<dcmotor/>)", motor), 1, kRounding);
+  EXPECT_NE(of(R"(<damper kv="3"/>)", velocity).messages.find("has no effect"), std::string::npos);
+  EXPECT_NE(of(R"(<dcmotor/>)", velocity).messages.find("is read as a motor"), std::string::npos);
+  // What <position> takes over, and not in all versions.
+  const Read servo = of(R"(<cylinder area="5" bias="1 2 3"/>)", R"(<position joint="j"/>)");
+  EXPECT_NEAR(-terms(servo.mechanism, 0.1, 0.2, 0.7).q_bar[0], 5 * (0.7 - 0.1) + 1 + 3 * 0.2, kRounding);
+  EXPECT_NE(servo.messages.find("takes over numbers of a default class of <cylinder>"), std::string::npos);
+  EXPECT_NE(servo.messages.find("the activation dynamics that <position> takes over are ignored"),
+            std::string::npos);
+  const Read lagging = of(R"(<general dyntype="filter" dynprm="1"/>)", R"(<position joint="j" kp="2"/>)");
+  EXPECT_NE(lagging.messages.find("activation dynamics"), std::string::npos) << lagging.messages;
+}
+
+TEST(MjcfActuators, ReadLawsThatTheElementMakesReadable) {
+  const auto force = [](const std::string& level, const std::string& element) {
+    const std::string text = "<default>" + level + "</default><actuator>" + element + "</actuator>";
+    return -terms(read_cleanly(hinge("", text)), 0.1, 0.2, 0.7).q_bar[0];
+  };
+  EXPECT_NEAR(
+      force(R"(<general gaintype="affine" gainprm="3 2 0"/>)", R"(<general joint="j" gaintype="fixed"/>)"),
+      3 * 0.7, kRounding);
+  EXPECT_NEAR(force(R"(<general dyntype="filter" gainprm="3" biastype="affine" biasprm="0 -3 -1"/>)",
+                    R"(<general joint="j" dyntype="none"/>)"),
+              3 * 0.7 - 3 * 0.1 - 0.2, kRounding);
+  EXPECT_NEAR(force(R"(<position kp="4" timeconst="0.1"/>)", R"(<general joint="j" dyntype="none"/>)"),
+              4 * (0.7 - 0.1), kRounding);
+}
+
 TEST(MjcfActuators, WithoutAGainHaveTheirBias) {
   const auto read_one = [](const std::string& element) {
     return read(hinge("", "<actuator>" + element + "</actuator>"));

@@ -15,9 +15,11 @@ namespace {
 using Access = Parameter::Access;
 
 /// What stands in front of a function, or of one that the compiler puts into what calls it.
-std::string opening(const Function& function, const char* parameters) {
+std::string opening(const Function& function, const char* parameters, bool is_step = false) {
   return fmt::format("template <{}> JOURDAIN_FUNCTION{}\n", parameters,
-                     function.is_inlined ? " JOURDAIN_INLINED" : "");
+                     function.is_inlined ? " JOURDAIN_INLINED"
+                     : is_step           ? " JOURDAIN_STAGES"
+                                         : "");
 }
 
 constexpr const char* kInputAt = R"(
@@ -113,7 +115,7 @@ std::string definition(const Function& function) {
   for (const Parameter& parameter : function.parameters)
     arguments += (arguments.empty() ? "" : ", ") + parameter.name;
   return "\n// `input` may be a function that gives the Input at the state of a stage.\n" +
-         opening(function, "class Real, class InputAt") +
+         opening(function, "class Real, class InputAt", function.has_stages) +
          wrapped(head(function, "Real", parameter_texts(function, "Real", "InputAt", true, false)) + " {",
                  0) +
          body + "}\n\n" + opening(function, "class Real") +

@@ -51,7 +51,7 @@ class Emitter {
         steps_(step_records(model.facts, functions, module)) {
     if (own_sines()) gather_sines();
     keep_far_values();
-    inline_short_functions(module_, code_);
+    inline_short_functions(functions_, module_, code_);
   }
 
   std::vector<File> files() const {
@@ -88,6 +88,7 @@ class Emitter {
         {"LINEARIZATION", linearization_struct(functions_, scene_)},
         {"LINEARIZATION_ALIAS", alias(linearizes(functions_), "Linearization")},
         {"NARROW_VECTORS", if_any(true, "narrow_vectors.in")},
+        {"STAGES", if_any(has_stages(), "stages.in")},
         {"USER_FUNCTIONS", user_functions(model_.name, called_)},
         {"USER_FUNCTIONS_ALIAS", alias(!called_.empty(), "Functions")},
         {"USER_FUNCTIONS_FILE",
@@ -113,8 +114,10 @@ class Emitter {
       for (const Function& part : cut.parts) parts += part_definition(part);
       bodies += definition(cut.function);
       for (const char* real : reals())
-        instantiations +=
-            wrapped("template JOURDAIN_FUNCTION " + signature(cut.function, real, true) + ";", 0);
+        instantiations += wrapped(
+            fmt::format("template JOURDAIN_FUNCTION {}{};", cut.function.has_stages ? "JOURDAIN_STAGES " : "",
+                        signature(cut.function, real, true)),
+            0);
     }
     holes["DECLARATIONS"] = declarations;
     holes["BODIES"] = bodies;
@@ -153,6 +156,11 @@ class Emitter {
   bool inlines() const {
     return std::any_of(code_.functions.begin(), code_.functions.end(),
                        [](const CutFunction& cut) { return cut.function.is_inlined; });
+  }
+
+  bool has_stages() const {
+    return std::any_of(code_.functions.begin(), code_.functions.end(),
+                       [](const CutFunction& cut) { return cut.function.has_stages; });
   }
 
   bool has_lanes() const {

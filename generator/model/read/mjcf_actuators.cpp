@@ -4,6 +4,7 @@
 #include <cstring>
 #include <set>
 
+#include "model/read/mjcf_law.hpp"
 #include "model/read/mjcf_sections.hpp"
 
 namespace jourdain::model {
@@ -13,15 +14,8 @@ namespace {
 using support::shown;
 using Op = Expression::Op;
 
-constexpr std::size_t kParameters = 10, kMostGroups = 31;
-
-/// Force of an actuator: gain[0] ctrl + bias[0] + bias[1] length + bias[2] speed, before the gear.
-struct Law {
-  std::vector<double> gain = {1, 0, 0, 0, 0, 0, 0, 0, 0, 0};
-  std::vector<double> bias = std::vector<double>(kParameters);
-  bool biased = false;
-  bool known = true;  ///< that it is this
-};
+constexpr std::size_t kMostGroups = 31;
+constexpr const char* kAtOnce = "the servo acts at once";
 
 class ActuatorReader {
  public:
@@ -71,7 +65,7 @@ class ActuatorReader {
       return file_.warning(xml().value(e, attribute), label + " acts on a joint that turns freely: not read",
                            "actuators of hinges and slides are");
     const double gear = file_.numbers(e, "gear", {1, 0, 0, 0, 0, 0}, 1)[0];
-    const Law law = law_of(e, label);
+    const MjcfLaw law = readable_law(e, label);
     Actuator actuator;
     actuator.name = new_name(e);
     actuator.joint = named->joint;
@@ -92,7 +86,7 @@ class ActuatorReader {
   }
 
   /// At some position or velocity.
-  static bool has_bias(const Law& law) {
+  static bool has_bias(const MjcfLaw& law) {
     return std::any_of(law.bias.begin(), law.bias.begin() + 3, [](double number) { return number != 0; });
   }
 
@@ -110,62 +104,29 @@ class ActuatorReader {
     return name;
   }
 
-  /// Each level, of the classes from outside in and then the element, changes what the one before left.
-  Law law_of(const XmlElement& e, const std::string& label) {
-    Law law;
-    const std::vector<const XmlElement*> levels = file_.levels(e);
-    for (auto level = levels.rbegin(); level != levels.rend(); ++level)
-      law = changed(std::move(law), **level);
-    if (law.known) {
-      if (!law.biased) law.bias.assign(kParameters, 0);
-      warn_of_servo(e, label);
-      return law;
+  /// That of a motor where its own is none that is read, after a warning.
+  MjcfLaw readable_law(const XmlElement& e, const std::string& label) {
+    MjcfLaw law = law_of(file_, e);
+    if (!law.is_affine()) {
+      file_.warning(xml().element(e), label + " is read as a motor: its own law is not",
+                    "the input is the force before the gear");
+      return {};
     }
-    file_.warning(xml().element(e), label + " is read as a motor: its own law is not",
-                  "the input is the force before the gear");
-    return {};
-  }
-
-  Law changed(Law law, const XmlElement& level) {
-    const std::string kind = level.Name();
-    if (kind == "general") return generally_changed(std::move(law), level);
-    if (kind == "motor") {
-      law.gain[0] = 1;
-      law.biased = false;
-      law.known = true;
-      return law;
-    }
-    if (kind == "position") {
-      law.gain[0] = xml().number(level, "kp", law.gain[0]);
-      law.bias[1] = -law.gain[0];
-      law.bias[2] = -xml().number(level, "kv", -law.bias[2]);
-    } else if (kind == "velocity") {
-      law.gain[0] = xml().number(level, "kv", law.gain[0]);
-      law.bias.assign(kParameters, 0);
-      law.bias[2] = -law.gain[0];
-    }
-    law.biased = true;
-    law.known = kind == "position" || kind == "velocity";
+    if (law.is_position) warn_of_position(e, label, law);
     return law;
   }
 
-  Law generally_changed(Law law, const XmlElement& level) {
-    file_.overlay(level, "gainprm", law.gain, 1);
-    file_.overlay(level, "biasprm", law.bias, 1);
-    const auto type = [&](const char* attribute) {
-      const char* text = level.Attribute(attribute);
-      return std::string(text ? text : "");
-    };
-    const std::string bias = type("biastype"), gain = type("gaintype"), dynamics = type("dyntype");
-    if (!bias.empty()) law.biased = bias != "none";
-    law.known = law.known && (bias.empty() || bias == "none" || bias == "affine") &&
-                (gain.empty() || gain == "fixed") && (dynamics.empty() || dynamics == "none");
-    return law;
-  }
-
-  void warn_of_servo(const XmlElement& e, const std::string& label) {
+  void warn_of_position(const XmlElement& e, const std::string& label, const MjcfLaw& law) {
     warn_of(e, label, "dampratio", "kv damps");
-    warn_of(e, label, "timeconst", "the servo acts at once");
+    if (!law.foreign.empty())
+      file_.warning(xml().element(e),
+                    fmt::format("{} takes over numbers of a default class of <{}>", label, law.foreign),
+                    "as MuJoCo 3 does; other versions begin anew");
+    if (law.dynamics == "none") return;
+    const XmlElement* lag = file_.holder(e, "timeconst");
+    if (lag && std::strcmp(lag->Name(), "position") == 0) return warn_of(e, label, "timeconst", kAtOnce);
+    file_.warning(xml().element(e),
+                  fmt::format("the activation dynamics that {} takes over are ignored", label), kAtOnce);
   }
 
   /// That a number of an actuator that is not zero is ignored, and what happens instead.
@@ -177,7 +138,7 @@ class ActuatorReader {
   }
 
   /// gear (b₀ + b₁ gear q + b₂ gear q̇) on the joint.
-  void add_bias(const Actuator& actuator, double gear, const Law& law) {
+  void add_bias(const Actuator& actuator, double gear, const MjcfLaw& law) {
     const auto times_variable = [&](double factor, Variable::Kind kind) {
       return Expression::binary(Op::kMultiply, factor, Expression::variable({kind, actuator.joint.value, 0}));
     };

@@ -268,6 +268,7 @@ class SdfReader {
     if (!file_.flag_in(element, "gravity", true)) warn("gravity", "gravity acts on all links");
     if (file_.flag_in(element, "kinematic", false)) warn("kinematic", "forces move all links");
     if (element.FirstChildElement("velocity_decay")) warn("velocity_decay", "nothing slows links down");
+    if (file_.flag_in(element, "enable_wind", false)) warn("enable_wind", "no wind blows");
   }
 
   /// A mass of 1 kg and moments of 1 kg m² where it does not say, as the format has it.
