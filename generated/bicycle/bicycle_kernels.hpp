@@ -161,6 +161,9 @@ void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
 #define JOURDAIN_INLINED
 #endif
 #endif
+#if !defined(JOURDAIN_STAGES)
+#define JOURDAIN_STAGES
+#endif
 
 // Inputs at a stage: held over the step, or sampled there.
 template <class Real> JOURDAIN_FUNCTION

@@ -161,6 +161,9 @@ void sine_cosine(const Real& x, Real& s, Real& c) noexcept {
 #define JOURDAIN_INLINED
 #endif
 #endif
+#if !defined(JOURDAIN_STAGES)
+#define JOURDAIN_STAGES
+#endif
 
 // Inputs at a stage: held over the step, or sampled there.
 template <class Real> JOURDAIN_FUNCTION
@@ -417,7 +420,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
 }
 
 // `input` may be a function that gives the Input at the state of a stage.
-template <class Real, class InputAt> JOURDAIN_FUNCTION
+template <class Real, class InputAt> JOURDAIN_FUNCTION JOURDAIN_STAGES
 void rk4_step(const Model<Real>& model, State<Real>& state, const InputAt& input, Real h) noexcept {
   constexpr int ny = Model<Real>::position_count, nz = Model<Real>::velocity_count;
   const Real half = Real(0.5) * h;

@@ -401,6 +401,9 @@ Real cosine(const Angle<Real>& x) noexcept {
 #define JOURDAIN_INLINED
 #endif
 #endif
+#if !defined(JOURDAIN_STAGES)
+#define JOURDAIN_STAGES
+#endif
 
 // Inputs at a stage: held over the step, or sampled there.
 template <class Real> JOURDAIN_FUNCTION

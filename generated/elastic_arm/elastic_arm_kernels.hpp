@@ -421,6 +421,9 @@ Real cosine(const Angle<Real>& x) noexcept {
 #define JOURDAIN_INLINED
 #endif
 #endif
+#if !defined(JOURDAIN_STAGES)
+#define JOURDAIN_STAGES
+#endif
 
 template <class Real> JOURDAIN_FUNCTION JOURDAIN_INLINED
 void accelerations(const Model<Real>& model, const State<Real>& stage, const Input<Real>& input,

@@ -417,6 +417,9 @@ using Lanes = typename LanesOf<N, Real>::Type;
 #define JOURDAIN_INLINED
 #endif
 #endif
+#if !defined(JOURDAIN_STAGES)
+#define JOURDAIN_STAGES
+#endif
 
 // Inputs at a stage: held over the step, or sampled there.
 template <class Real> JOURDAIN_FUNCTION

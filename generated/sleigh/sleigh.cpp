@@ -3,6 +3,10 @@
 #if defined(__GNUC__) && !defined(__clang__) && __GNUC__ > 7 && defined(__AVX512F__)
 #pragma GCC target("prefer-vector-width=256")
 #endif
+/* Steps that hold short functions: stages would wait for numbers that were written one by one just before. */
+#if !defined(JOURDAIN_STAGES) && defined(__GNUC__) && !defined(__clang__) && !defined(__INTEL_COMPILER) && !defined(__CUDACC__) && !defined(__HIPCC__)
+#define JOURDAIN_STAGES __attribute__((optimize("no-tree-vectorize")))
+#endif
 #include "sleigh_kernels.hpp"
 
 namespace sleigh {
@@ -53,9 +57,9 @@ template JOURDAIN_FUNCTION void constraint_forces(const Model<double>& model, co
     const Input<double>& input, double (&lambda)[1]) noexcept;
 template JOURDAIN_FUNCTION void constraint_forces(const Model<float>& model, const State<float>& state, const
     Input<float>& input, float (&lambda)[1]) noexcept;
-template JOURDAIN_FUNCTION void rk4_step(const Model<double>& model, State<double>& state, const
-    Input<double>& input, double h) noexcept;
-template JOURDAIN_FUNCTION void rk4_step(const Model<float>& model, State<float>& state, const Input<float>&
-    input, float h) noexcept;
+template JOURDAIN_FUNCTION JOURDAIN_STAGES void rk4_step(const Model<double>& model, State<double>& state,
+    const Input<double>& input, double h) noexcept;
+template JOURDAIN_FUNCTION JOURDAIN_STAGES void rk4_step(const Model<float>& model, State<float>& state, const
+    Input<float>& input, float h) noexcept;
 
 }  // namespace sleigh

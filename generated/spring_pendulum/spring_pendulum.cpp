@@ -3,6 +3,10 @@
 #if defined(__GNUC__) && !defined(__clang__) && __GNUC__ > 7 && defined(__AVX512F__)
 #pragma GCC target("prefer-vector-width=256")
 #endif
+/* Steps that hold short functions: stages would wait for numbers that were written one by one just before. */
+#if !defined(JOURDAIN_STAGES) && defined(__GNUC__) && !defined(__clang__) && !defined(__INTEL_COMPILER) && !defined(__CUDACC__) && !defined(__HIPCC__)
+#define JOURDAIN_STAGES __attribute__((optimize("no-tree-vectorize")))
+#endif
 #include "spring_pendulum_kernels.hpp"
 
 namespace spring_pendulum {
@@ -43,9 +47,9 @@ template JOURDAIN_FUNCTION void outputs(const Model<double>& model, const State<
     Input<double>& input, Outputs<double>& result) noexcept;
 template JOURDAIN_FUNCTION void outputs(const Model<float>& model, const State<float>& state, const
     Input<float>& input, Outputs<float>& result) noexcept;
-template JOURDAIN_FUNCTION void rk4_step(const Model<double>& model, State<double>& state, const
-    Input<double>& input, double h) noexcept;
-template JOURDAIN_FUNCTION void rk4_step(const Model<float>& model, State<float>& state, const Input<float>&
-    input, float h) noexcept;
+template JOURDAIN_FUNCTION JOURDAIN_STAGES void rk4_step(const Model<double>& model, State<double>& state,
+    const Input<double>& input, double h) noexcept;
+template JOURDAIN_FUNCTION JOURDAIN_STAGES void rk4_step(const Model<float>& model, State<float>& state, const
+    Input<float>& input, float h) noexcept;
 
 }  // namespace spring_pendulum

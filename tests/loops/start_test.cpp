@@ -165,6 +165,8 @@ TEST(LoopStart, AMotionLeavesNothingToGive) {
       plan(four_bar("motion = \"1 + 3*t\"", "", "initial_position = 1.6\ninitial_velocity = 3"));
   EXPECT_FALSE(result.plan);
   EXPECT_THAT(result.messages, HasSubstr("'rocker' cannot start with 3"));
+  const Result held = plan(four_bar("motion = \"1\"", "", "initial_position = 1.6\ninitial_velocity = 3"));
+  EXPECT_THAT(held.messages, HasSubstr("the loops leave it 0: write that"));
 }
 
 }  // namespace

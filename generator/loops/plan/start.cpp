@@ -249,7 +249,8 @@ class StartSearch {
 
   void report_conflict(std::size_t entry, const Entries& held) {
     const Vector z = nearest(held);
-    const bool rests = std::abs(z[at(entry)]) <= kAgrees * z.lpNorm<Eigen::Infinity>();
+    const long double fastest = std::max(z.lpNorm<Eigen::Infinity>(), std::abs(initial_.z[at(entry)]));
+    const bool rests = std::abs(z[at(entry)]) <= kAgrees * fastest;
     const double possible = rests ? 0 : static_cast<double>(z[at(entry)]);
     Entries with = held_;
     for (const std::size_t k : needed(entry, held)) with.push_back(k);
