@@ -4,8 +4,10 @@
 #pragma GCC target("prefer-vector-width=256")
 #endif
 /* Steps that hold short functions: stages would wait for numbers that were written one by one just before. */
-#if !defined(JOURDAIN_STAGES) && defined(__GNUC__) && !defined(__clang__) && !defined(__INTEL_COMPILER) && !defined(__CUDACC__) && !defined(__HIPCC__)
+#if !defined(JOURDAIN_STAGES) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__) && defined(__x86_64__)
+#if defined(__GNUC__) && __GNUC__ > 10 && !defined(__clang__) && !defined(__EDG__) && !defined(__NVCOMPILER) && !defined(__CUDACC__)
 #define JOURDAIN_STAGES __attribute__((optimize("no-tree-vectorize")))
+#endif
 #endif
 #include "digital_servo_kernels.hpp"
 

@@ -33,9 +33,10 @@ double column_error(const EnsembleResult& result, const std::vector<double>& val
 
 /// The first states that may not be trusted, and what was drawn for them.
 std::string untrusted_text(const EnsembleResult& result, const Verdict& verdict) {
-  std::string text =
-      fmt::format("error: {} of {} states ended where a number is not finite or loops could not be closed",
-                  verdict.untrusted, result.shard.size());
+  std::string text = fmt::format(
+      "error: {} of {} states are not to be trusted: a number is not finite, loops could not be closed, or "
+      "how they are closed is not proven for their parameters",
+      verdict.untrusted, result.shard.size());
   for (std::size_t shown = 0; shown < verdict.first_untrusted.size(); ++shown) {
     text += fmt::format("\n  state {}", result.shard.begin + verdict.first_untrusted[shown]);
     for (std::size_t i = 0; i < verdict.drawn[shown].size(); ++i)

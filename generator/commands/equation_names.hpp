@@ -18,6 +18,8 @@ class Spelling {
   std::string operator()(const std::string& name) const;
   /// No name is printed as this text from now on.
   void reserve(const std::string& text) { taken_.insert(text); }
+  /// Whether nothing is printed as `name` yet; from now on it is.
+  bool take(const std::string& name) { return taken_.insert((*this)(name)).second; }
   /// `wanted`, or that with `suffix` and perhaps a number, which nothing is printed as yet.
   std::string unused(const std::string& wanted, const std::string& suffix);
 
@@ -26,7 +28,7 @@ class Spelling {
   std::set<std::string> taken_;  ///< as they are printed
 };
 
-/// Parameters that would be printed as coordinates, velocities, inputs, time or each other have other names.
+/// Parameters that would be printed as coordinates, velocities, inputs, time, entries or each other have other names.
 struct PrintedNames {
   model::Mechanism mechanism;  ///< with these names of parameters
   Spelling spelling;           ///< in which they are taken

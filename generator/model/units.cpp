@@ -52,7 +52,7 @@ constexpr std::array kSymbols{Symbol{"m", 1, kLength, "m"},
                               Symbol{"deg", kPi / 180, kNone, "rad"},
                               Symbol{"°", kPi / 180, kNone, "rad"},
                               Symbol{"rev", 2 * kPi, kNone, "rad"},
-                              Symbol{"rpm", kPi / 30, kRate, "(rad/s)"},
+                              Symbol{"rpm", kPi / 30, kRate, "rad/s"},
                               Symbol{"Hz", 1, kRate, "Hz"},
                               Symbol{"N", 1, kForce, "N"},
                               Symbol{"mN", 1e-3L, kForce, "N"},
@@ -86,6 +86,11 @@ bool is_sensible(const Unit& unit) {
                      [](int exponent) { return std::abs(exponent) <= kLargest; });
 }
 
+/// A symbol's quotient in parentheses.
+std::string as_factor(const std::string& si) {
+  return si.starts_with('(') || si.find('/') == std::string::npos ? si : "(" + si + ")";
+}
+
 class Parser {
  public:
   explicit Parser(std::string_view text) : text_(text) {}
@@ -95,9 +100,6 @@ class Parser {
     if (at_end() || text_ == "-") return {};
     Unit unit = product(0);
     if (!at_end()) fail(position_, "')' without '('");
-    // One pair around all of it: "(rad/s)" of "rpm".
-    if (unit.si.starts_with('(') && unit.si.find(')') == unit.si.size() - 1 && unit.si.rfind('(') == 0)
-      unit.si = unit.si.substr(1, unit.si.size() - 2);
     return unit;
   }
 
@@ -122,6 +124,7 @@ class Parser {
     constexpr int kDeepest = 8;
     if (depth > kDeepest) fail(position_, "the unit's parentheses are nested too deep");
     Unit result = factor(depth);
+    if (skip_blanks(), !at_end() && text_[position_] != ')') result.si = as_factor(result.si);
     for (bool divided = false; skip_blanks(), !at_end() && text_[position_] != ')';) {
       const bool divides = accept("/");
       const bool marked = !divides && (accept("*") || accept("·"));
@@ -135,7 +138,7 @@ class Parser {
       for (std::size_t i = 0; i < result.dimension.size(); ++i)
         result.dimension[i] += sign * next.dimension[i];
       if (!is_sensible(result)) fail(position_ - 1, "the unit's exponents are too large");
-      result.si += (divides ? "/" : marked ? "*" : " ") + next.si;
+      result.si += (divides ? "/" : marked ? "*" : " ") + as_factor(next.si);
     }
     return result;
   }
@@ -178,7 +181,7 @@ class Parser {
     position_ += static_cast<std::size_t>(stop - begin);
     base.factor = std::pow(base.factor, static_cast<long double>(exponent));
     for (int& entry : base.dimension) entry *= exponent;
-    base.si += fmt::format("^{}", exponent);
+    base.si = as_factor(base.si) + fmt::format("^{}", exponent);
     if (!is_sensible(base)) fail(position_ - 1, "the unit's exponents are too large");
     return base;
   }

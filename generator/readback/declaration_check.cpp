@@ -193,7 +193,12 @@ void check_declarations(const Unit& unit, const Expected& expected, Findings& fi
     else
       findings.add("'{}' does not belong there", text);
   }
-  for (const Function* function : unit.instantiations) instantiated.push_back(signature_of(unit, *function));
+  for (const Function* function : unit.instantiations) {
+    instantiated.push_back(signature_of(unit, *function));
+    const std::optional<FunctionApi> api = api_of(unit.symbols.text(function->name), expected);
+    if (function->has_stages && !(api && api->result == Result::kStep))
+      findings.add("'{}' is marked as a step", instantiated.back());
+  }
   compare("declaration", found, wanted, findings);
   compare("definition", defined, bodies, findings);
   compare("instantiation", instantiated, instances, findings);

@@ -16,12 +16,13 @@ inline constexpr const char* kNarrowVectors[] = {
     "#if defined(__GNUC__) && !defined(__clang__) && __GNUC__ > 7 && defined(__AVX512F__)",
     "#pragma GCC target(\"prefer-vector-width=256\")", "#endif"};
 
-/// In front of sources whose steps hold short functions: in those GCC packs nothing.
+/// In front of sources with functions that are marked so, steps that hold short ones: in those GCC packs nothing.
 inline constexpr const char* kStages[] = {
-    "#if !defined(JOURDAIN_STAGES) && defined(__GNUC__) && !defined(__clang__) && !defined(__INTEL_COMPILER) "
-    "&& !defined(__CUDACC__) && "
-    "!defined(__HIPCC__)",
-    "#define JOURDAIN_STAGES __attribute__((optimize(\"no-tree-vectorize\")))", "#endif"};
+    "#if !defined(JOURDAIN_STAGES) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__) && "
+    "defined(__x86_64__)",
+    "#if defined(__GNUC__) && __GNUC__ > 10 && !defined(__clang__) && !defined(__EDG__) && "
+    "!defined(__NVCOMPILER) && !defined(__CUDACC__)",
+    "#define JOURDAIN_STAGES __attribute__((optimize(\"no-tree-vectorize\")))", "#endif", "#endif"};
 
 /// Files, members, sizes, defaults, limits, names.
 void check_structs(const Unit& unit, const Expected& expected, Findings& findings);

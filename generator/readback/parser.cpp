@@ -138,7 +138,7 @@ class FileParser : public StatementParser {
       return;
     }
     expect_word(kFunctionMacro);
-    accept_word(kStagesMacro);
+    function.has_stages = accept_word(kStagesMacro);
     head(function);
     expect(";");
     unit_.instantiations.push_back(&function);
@@ -146,7 +146,7 @@ class FileParser : public StatementParser {
 
   void function_or_constant(Function& function) {
     const bool is_function = accept_word(kFunctionMacro), is_inline = accept_word("inline");
-    if (is_function && !accept_word(kInlinedMacro)) accept_word(kStagesMacro);
+    if (is_function && !accept_word(kInlinedMacro)) function.has_stages = accept_word(kStagesMacro);
     if (!is_function) {
       expect_word("constexpr");
       return constant(is_inline);

@@ -147,8 +147,8 @@ void check_files(const Unit& unit, const Expected& expected, Findings& findings)
       {"#pragma once", "#ifndef JOURDAIN_FUNCTION", "#define JOURDAIN_FUNCTION", "#endif"},
       {"#pragma once", "#include <math.h>", fmt::format("#include \"{}.hpp\"", expected.name)},
       {std::begin(kNarrowVectors), std::end(kNarrowVectors)}};
-  const Texts& found = unit.directives[2];
-  if (std::find(found.begin(), found.end(), kStages[0]) != found.end())
+  if (std::any_of(unit.instantiations.begin(), unit.instantiations.end(),
+                  [](const Function* function) { return function->has_stages; }))
     wanted[2].insert(wanted[2].end(), std::begin(kStages), std::end(kStages));
   wanted[2].push_back(fmt::format("#include \"{}_kernels.hpp\"", expected.name));
   if (!expected.user_functions().empty())

@@ -143,6 +143,7 @@ struct Function {
   std::vector<TemplateParameter> parameters_of_template;
   bool is_template = false, is_static = false, is_inline = false, is_explicit = false, is_noexcept = false;
   bool is_constructor = false;
+  bool has_stages = false;  ///< is marked as a step that holds inlined functions
   TypeName result;
   char result_indirection = 0;
   std::vector<Parameter> parameters;

@@ -83,16 +83,26 @@ double longest_of_whole_intervals(const WorkPoint& good, double tolerance, Trial
   return good.h;
 }
 
+/// Whether steps a little shorter keep it, too, so that it is not by luck.
+bool keeps_beside(std::size_t method, long count, double tolerance, Trials& trials) {
+  for (const long more : {1L, std::max(2L, count / 200)})
+    if (!trials.keeps(method, trials.sampling() / double(count + more), tolerance)) return false;
+  return true;
+}
+
 /// Largest step below `longest` that keeps the tolerance: errors grow with h, so halve the range of step counts.
 double longest_step(const WorkPoint& good, double tolerance, Trials& trials,
                     const ReferenceSolution& reference) {
   const double sampling = trials.sampling();
   if (good.h > 0.999 * sampling) return longest_of_whole_intervals(good, tolerance, trials, reference);
-  long enough = std::lround(sampling / good.h), too_few = enough / 2;
+  const long known = std::lround(sampling / good.h);
+  long enough = known, too_few = enough / 2;
   while (enough - too_few > std::max(1L, enough / 20)) {
     const long count = (enough + too_few) / 2;
     (trials.keeps(good.method, sampling / double(count), tolerance) ? enough : too_few) = count;
   }
+  while (enough < known && !keeps_beside(good.method, enough, tolerance, trials))
+    enough = std::min(known, enough + std::max(1L, enough / 20));
   return sampling / double(enough);
 }
 

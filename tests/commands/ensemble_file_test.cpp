@@ -337,11 +337,11 @@ TEST_F(EnsembleFile, MergedHasTheVerdictOfTheWholeAndThoseOfItsShards) {
   second = part_of_whole(2, 2);
   second.trusted[30] = 0;
   set_value(second, 1, 30, kNaN);
-  expect(
-      merge({first, write("2.h5", second)}), 1,
-      fmt::format("error: 1 of 100 states ended where a number is not finite or loops could not be closed\n"
-                  "  state 80: mass = {:g}\n",
-                  number_of(0, 80)));
+  expect(merge({first, write("2.h5", second)}), 1,
+         fmt::format("error: 1 of 100 states are not to be trusted: a number is not finite, loops could not "
+                     "be closed, or how they are closed is not proven for their parameters\n"
+                     "  state 80: mass = {:g}\n",
+                     number_of(0, 80)));
   EnsembleResult shaky = part_of_whole(1, 2);
   shaky.halved.trusted[4] = 0;
   expect(merge({write("1.h5", shaky), write("2.h5", part_of_whole(2, 2))}), 1, "the step is too long");

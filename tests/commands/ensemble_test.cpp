@@ -180,7 +180,7 @@ TEST_F(EnsembleCommand, SaysWhichStatesAreNotToBeTrusted) {
   const std::string file = folder_.path() + "/rows.csv";
   const support::ProcessResult result =
       run({"--spread", "mass=uniform(0.1)", "--states", "20", "--output", file});
-  expect(result, 1, "20 of 20 states ended where a number is not finite");
+  expect(result, 1, "20 of 20 states are not to be trusted: a number is not finite");
   expect(result, 1, "state 0: mass = ");
   for (Row row : rows_of(support::read_file(file))) EXPECT_EQ(row["trusted"], 0);
 }

@@ -47,7 +47,7 @@ TEST(Equations, PrintDifferentNamesDifferently) {
                       "1]\n[[joint]]\nname = \"x\"\n"
                       "type = \"revolute\"\nparent = \"world\"\nchild = \"b\"\naxis = [0, 1, 0]\ndamping = "
                       "\"c0\"\n[[force]]\n"
-                      "joint = \"x\"\nvalue = \"l_1*min(x, l1)*(x < 0 ? 1 : 0)\"\n");
+                      "joint = \"x\"\nvalue = \"l_1*min(x, l1)*if(x < 0, 1, 0)\"\n");
   const support::ProcessResult plain = jourdain({"equations", model});
   for (const char* line : {"  y0, z0: x\n", "  y0_p: parameter y0\n", "  c0_v = cos(y0)\n", " = c0*z0\n",
                            "y0_p*l1", "  where_negative(a, b): b where a < 0, else 0\n"})
@@ -58,6 +58,31 @@ TEST(Equations, PrintDifferentNamesDifferently) {
                            "  c_{0,v} &= \\cos(y_{0}) \\\\\n", "10^{-7}"})
     expect(latex, 0, line);
   EXPECT_EQ(latex.output.find("e-07"), std::string::npos);
+}
+
+/// As LaTeX prints entries, and as another parameter is printed that makes room.
+TEST(Equations, PrintNoParameterAsAnEntry) {
+  const support::TemporaryFolder folder;
+  const auto latex = [&](const std::string& names, const std::string& mass) {
+    const std::string model = folder.path() + "/m.toml";
+    support::write_file(
+        model,
+        "[model]\nname = \"m\"\n[parameters]\n" + names + "[[body]]\nname = \"b\"\nmass = \"" + mass +
+            "\"\n[[joint]]\nname = \"x\"\ntype = \"prismatic\"\nparent = \"world\"\nchild = \"b\"\n[[body]]\n"
+            "name = \"c\"\nmass = 1\n[[joint]]\nname = \"w\"\ntype = \"prismatic\"\nparent = "
+            "\"world\"\nchild = "
+            "\"c\"\n[[coupler]]\nname = \"both\"\ncoordinate = \"x\"\nfollows = \"w\"\nratio = 1\n");
+    return jourdain({"equations", model, "--latex"});
+  };
+  const support::ProcessResult entries = latex("g0 = 2\nM0_0 = 3\nG_0_1 = 1\n", "g0*M0_0*G_0_1");
+  for (const char* line :
+       {"%  g_{0,p}: parameter g0\n", "%  M_{0,0,p}: parameter M0_0\n", "%  G_{0,1,p}: parameter G_0_1\n"})
+    expect(entries, 0, line);
+  for (const char* names : {"y0 = 2\ny0_p = 3\n", "y0_p = 3\ny0 = 2\n"}) {
+    const support::ProcessResult both = latex(names, "y0*y0_p");
+    expect(both, 0, "%  y_{0,p2}: parameter y0\n");
+    EXPECT_EQ(both.output.find("parameter y0_p"), std::string::npos);
+  }
 }
 
 /// Of LaTeX, where values on the way have names as entries have.

@@ -510,5 +510,13 @@ TEST(LoopCommands, ReportsSayWhereLoopsTurnSingularAndRecommendNothing) {
 }
 #endif
 
+TEST(LoopCommands, FloatIsNamedWhereItIsTooCoarse) {
+  expect(
+      jourdain({"simulate", "models/n_four_bar.toml", "--real", "float", "--duration", "1", "--step", "0.001",
+                "--output", "-"}),
+      1,
+      "a step of 0.001 s is too long (take a shorter one), float is too coarse there (run it in double), or");
+}
+
 }  // namespace
 }  // namespace jourdain::tests

@@ -62,11 +62,47 @@ TEST(Inlining, IsAskedForWhereStepsCallWhatIsShort) {
   for (const char* function : {"accelerations(", "forward_dynamics(", "position_rate(", "close_loops("})
     EXPECT_NE(four_bar.find(fmt::format("JOURDAIN_INLINED\nvoid {}", function)), std::string::npos)
         << function;
+  const auto source = [&](const std::string& model) {
+    return support::read_file(fmt::format("{0}/{1}/{1}.cpp", folder.path(), model));
+  };
+  EXPECT_NE(four_bar.find("class InputAt> JOURDAIN_FUNCTION JOURDAIN_STAGES\nvoid rk4_step("),
+            std::string::npos);
+  EXPECT_NE(source("four_bar")
+                .find("template JOURDAIN_FUNCTION JOURDAIN_STAGES void rk4_step(const Model<double>&"),
+            std::string::npos);
   const std::string panda = kernels("panda", {});
+  EXPECT_EQ((panda + source("panda")).find("JOURDAIN_STAGES"), std::string::npos);
   EXPECT_EQ(panda.find("JOURDAIN_INLINED"), std::string::npos);
   const std::string no_step = kernels("cart_pole", {"--functions", "forward_dynamics,mass_matrix"});
   EXPECT_EQ(no_step.find("JOURDAIN_INLINED"), std::string::npos);
 }
+
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+/// What users' other options say stays as it is in steps that g++ does not vectorise.
+TEST(Inlining, KeepsOptionsInUnvectorisedSteps) {
+  const support::TemporaryFolder folder;
+  const std::string name = "slider_crank", source = fmt::format("{0}/{1}/{1}.cpp", JOURDAIN_EMITTED, name);
+  const auto in_steps = [&](const std::vector<std::string>& options, const std::string& instruction) {
+    std::vector<std::string> command{"g++", "-std=c++17", "-O3", "-mfma",
+                                     "-S",  source,       "-o",  folder.path() + "/m.s"};
+    command.insert(command.begin() + 3, options.begin(), options.end());
+    const support::ProcessResult compiled = support::run_process(command);
+    EXPECT_EQ(compiled.status, 0) << compiled.output;
+    std::istringstream lines(support::read_file(folder.path() + "/m.s"));
+    bool is_step = false;
+    int found = 0;
+    for (std::string line; std::getline(lines, line);) {
+      if (line.ends_with(":") && line.starts_with("_Z")) is_step = line.find("rk4_step") != std::string::npos;
+      found += is_step && line.find(instruction) != std::string::npos;
+    }
+    return found;
+  };
+  EXPECT_GT(in_steps({}, "vfm"), 0);
+  EXPECT_EQ(in_steps({"-ffp-contract=off"}, "vfm"), 0);
+  EXPECT_GT(in_steps({}, "sqrt@PLT") + in_steps({}, "call\tsqrt"), 0);
+  EXPECT_EQ(in_steps({"-fno-math-errno"}, "sqrt@PLT") + in_steps({"-fno-math-errno"}, "call\tsqrt"), 0);
+}
+#endif
 
 }  // namespace
 }  // namespace jourdain::tests

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "loops/plan/plan.hpp"
+#include "loops/plan/planned_start.hpp"
 #include "model/read/read.hpp"
 
 namespace jourdain::tests {
@@ -126,6 +127,88 @@ TEST(LoopStart, DeadPointsAreLeftAfterAWarning) {
   const Result given = plan(four_bar("initial_position = 0", "initial_position = 0", "initial_position = 0"));
   EXPECT_FALSE(given.plan);
   EXPECT_THAT(given.messages, HasSubstr("cannot be closed from the initial values"));
+}
+
+TEST(LoopStart, DeadPointsAreLeftWithinRanges) {
+  const Result above = plan(four_bar("", "", "range = [0, 3]")),
+               below = plan(four_bar("", "", "range = [-3, 0]"));
+  ASSERT_TRUE(above.plan && below.plan) << above.messages << below.messages;
+  EXPECT_GT(above.plan->y[2], 0.1);
+  EXPECT_LT(below.plan->y[2], -0.1);
+}
+
+TEST(LoopStart, GivenPositionsAndRangesAreBothMet) {
+  const Result result = plan(four_bar("initial_position = 1.36", "", "range = [-0.05, 2.61]"));
+  ASSERT_TRUE(result.plan) << result.messages;
+  EXPECT_THAT(result.messages,
+              HasSubstr("from the initial positions no step closes the loops within the ranges"));
+  EXPECT_EQ(result.plan->y[0], 1.36);
+  EXPECT_GT(result.plan->y[2], -0.05);
+  EXPECT_LT(result.plan->y[2], 2.61);
+  const Result out =
+      plan(four_bar("initial_position = 1.36", "range = [-0.01, 0.01]", "range = [-0.01, 0.01]"));
+  ASSERT_TRUE(out.plan) << out.messages;
+  EXPECT_THAT(out.messages, HasSubstr("the loops close with 'coupler' at "));
+}
+
+/// Millimetres and less beside radians and the unit vectors of slides: no constraint is next to nothing for that.
+TEST(LoopStart, SmallMechanismsKeepTheirConstraints) {
+  for (const double crank : {0.4, 0.8e-3, 0.4e-3, 1e-4, 1e-5}) {
+    const std::string text = fmt::format(
+        "[model]\nname = \"m\"\n[[body]]\nname = \"c\"\nmass = 1e-8\ninertia = [{1}, {1}, "
+        "{1}]\n[[body]]\nname = \"r\"\n"
+        "mass = 1e-8\ninertia = [{1}, {1}, {1}]\n[[body]]\nname = \"p\"\nmass = 1e-8\n[[joint]]\nname = "
+        "\"crank\"\ntype "
+        "= \"revolute\"\nparent = \"world\"\nchild = \"c\"\n[[joint]]\nname = \"rod\"\ntype = "
+        "\"revolute\"\nparent = "
+        "\"c\"\nchild = \"r\"\nposition = [{0}, 0, 0]\n[[joint]]\nname = \"piston\"\ntype = "
+        "\"prismatic\"\nparent = "
+        "\"world\"\nchild = \"p\"\naxis = [1, 0, 0]\n[[frame]]\nname = \"tip\"\nbody = \"r\"\nposition = "
+        "[{2}, 0, 0]\n"
+        "[[loop]]\nname = \"l\"\ntype = \"planar_pin\"\nfrom = \"p\"\nto = \"tip\"\n",
+        crank, 1e-9 * crank * crank, 2.5 * crank);
+    const Result result = plan(text);
+    ASSERT_TRUE(result.plan) << crank << result.messages;
+    EXPECT_EQ(result.plan->freedom, 1u) << crank << result.messages;
+    EXPECT_TRUE(result.plan->redundant.empty()) << crank;
+  }
+}
+
+/// A ball joint's tip that has to leave the direction in which it points.
+TEST(LoopStart, DeadPointsOfBallJointsAreLeft) {
+  const Result result = plan(
+      "[model]\nname = \"m\"\n[[body]]\nname = \"b\"\nmass = 1\ninertia = [1, 1, 1]\n[[joint]]\nname = "
+      "\"j\"\ntype = "
+      "\"spherical\"\nparent = \"world\"\nchild = \"b\"\n[[frame]]\nname = \"tip\"\nbody = \"b\"\nposition = "
+      "[1, "
+      "0, 0]\n"
+      "[[frame]]\nname = \"wall\"\nbody = \"world\"\nposition = [0.5, 0, 0]\n[[loop]]\nname = \"l\"\ntype = "
+      "\"point_in_plane\"\nfrom = \"wall\"\nto = \"tip\"\naxis = [1, 0, 0]\n");
+  ASSERT_TRUE(result.plan) << result.messages;
+  EXPECT_THAT(result.messages, HasSubstr("from the initial positions no step closes"));
+  const std::vector<double>& q = result.plan->y;
+  EXPECT_NEAR(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3], 1, 1e-14);
+  EXPECT_NEAR(1 - 2 * (q[2] * q[2] + q[3] * q[3]), 0.5, 1e-13);
+}
+
+/// Which of two ways of closing was chance: other parameters do not draw again.
+TEST(LoopStart, OtherParametersKeepTheWayOfClosing) {
+  std::string text = four_bar("", "", "", "[loops]\ntreatment = \"multipliers\"\n");
+  text.insert(text.find("[[body]]"), "[parameters]\nground = 0.4\n");
+  text.replace(text.find("[0.4, 0, 0]"), 11, "[\"ground\", 0, 0]");
+  support::Diagnostics diagnostics("text.toml", text);
+  std::optional<model::Mechanism> mechanism = model::read_mechanism(diagnostics, {});
+  ASSERT_TRUE(mechanism) << diagnostics.format();
+  const std::optional<loops::LoopPlan> first = loops::plan_loops(*mechanism, diagnostics);
+  ASSERT_TRUE(first) << diagnostics.format();
+  const auto side = [](const auto& y) { return std::sin(double(y[2] - y[0] - y[1])); };
+  for (const double ground : {0.2402, 0.241, 0.244, 0.25, 0.3, 0.5}) {
+    mechanism->parameters[0].value = ground;
+    support::Diagnostics ignored("--set", "");
+    const std::optional<loops::Start> start = loops::planned_start(*mechanism, *first, ignored);
+    ASSERT_TRUE(start) << ground << ignored.format();
+    EXPECT_GT(side(start->configuration.y) * side(first->y), 0.0) << ground;
+  }
 }
 
 TEST(LoopStart, PositionsWithFewDigitsAssembleNearby) {

@@ -111,14 +111,33 @@ TEST(MjcfActuators, TakeGainsOfClassesOfOtherKinds) {
   EXPECT_NEAR(gain(R"(<dcmotor/>)", motor), 1, kRounding);
   EXPECT_NE(of(R"(<damper kv="3"/>)", velocity).messages.find("has no effect"), std::string::npos);
   EXPECT_NE(of(R"(<dcmotor/>)", velocity).messages.find("is read as a motor"), std::string::npos);
+  EXPECT_NEAR(gain(R"(<dcmotor/>)", R"(<velocity joint="j" kv="2"/>)"), 2, kRounding);
+  // An input that is integrated is no position.
+  EXPECT_NE(of(R"(<intvelocity kp="7"/>)", R"(<position joint="j"/>)").messages.find("is read as a motor"),
+            std::string::npos);
   // What <position> takes over, and not in all versions.
-  const Read servo = of(R"(<cylinder area="5" bias="1 2 3"/>)", R"(<position joint="j"/>)");
-  EXPECT_NEAR(-terms(servo.mechanism, 0.1, 0.2, 0.7).q_bar[0], 5 * (0.7 - 0.1) + 1 + 3 * 0.2, kRounding);
+  const Read servo = of(R"(<cylinder area="5" bias="1 2 -3"/>)", R"(<position joint="j"/>)");
+  EXPECT_NEAR(-terms(servo.mechanism, 0.1, 0.2, 0.7).q_bar[0], 5 * (0.7 - 0.1) + 1 - 3 * 0.2, kRounding);
   EXPECT_NE(servo.messages.find("takes over numbers of a default class of <cylinder>"), std::string::npos);
   EXPECT_NE(servo.messages.find("the activation dynamics that <position> takes over are ignored"),
             std::string::npos);
   const Read lagging = of(R"(<general dyntype="filter" dynprm="1"/>)", R"(<position joint="j" kp="2"/>)");
   EXPECT_NE(lagging.messages.find("activation dynamics"), std::string::npos) << lagging.messages;
+}
+
+TEST(MjcfActuators, DampingRatiosAreNoDampings) {
+  const auto of = [](const std::string& sections) {
+    const Read result = read(hinge("", sections));
+    EXPECT_NEAR(-terms(result.mechanism, 0.1, 0.2, 0.7).q_bar[0], 4 * (0.7 - 0.1), kRounding);
+    return result.messages;
+  };
+  const std::string element = R"(<actuator><general joint="j" dyntype="none"/></actuator>)";
+  EXPECT_NE(of(R"(<default><position kp="4" dampratio="1"/></default>)" + element)
+                .find("warning: dampratio of <general> is ignored"),
+            std::string::npos);
+  EXPECT_NE(of(R"(<default><general gainprm="4" biastype="affine" biasprm="0 -4 1"/></default>)" + element)
+                .find("warning: the damping ratio of <general> is ignored"),
+            std::string::npos);
 }
 
 TEST(MjcfActuators, ReadLawsThatTheElementMakesReadable) {

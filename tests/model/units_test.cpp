@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "model/read/read.hpp"
@@ -32,7 +33,9 @@ TEST(Units, HaveTheirFactorsDimensionsAndSpellingsInSi) {
                         {"1/s", 1, {0, 0, -1, 0}, "1/s"},
                         {"s^-1", 1, {0, 0, -1, 0}, "s^-1"},
                         {"rpm", std::numbers::pi / 30, {0, 0, -1, 0}, "rad/s"},
+                        {"(rpm)", std::numbers::pi / 30, {0, 0, -1, 0}, "(rad/s)"},
                         {"rpm/rpm", 1, {}, "(rad/s)/(rad/s)"},
+                        {"rpm^2", std::pow(std::numbers::pi / 30, 2), {0, 0, -2, 0}, "(rad/s)^2"},
                         {"N m/rpm", 30 / std::numbers::pi, {2, 1, -1, 0}, "N m/(rad/s)"},
                         {"deg", std::numbers::pi / 180, {}, "rad"},
                         {"N m s/rad", 1, {2, 1, -1, 0}, "N m s/rad"},

@@ -97,11 +97,7 @@ class Planner {
     const std::optional<Start> start = find_start(mechanism_, closure_, named_independent(), diagnostics_);
     if (!start) return false;
     start_ = start->configuration;
-    plan_.moved = start->moved;
-    plan_.kept_y = start->kept_y;
-    plan_.kept_z = start->kept_z;
-    for (const long double entry : start_.y) plan_.y.push_back(static_cast<double>(entry));
-    for (const long double entry : start->z) plan_.z.push_back(static_cast<double>(entry));
+    take_start(*start, plan_);
     return true;
   }
 

@@ -15,7 +15,7 @@ std::optional<Start> planned_start(const model::Mechanism& mechanism, const Loop
   std::vector<std::size_t> independent;
   for (const std::size_t k : plan.independent)
     if (k < closure.velocity_count()) independent.push_back(k);  // not of states
-  return find_start(held, closure, independent, diagnostics);
+  return find_start(held, closure, independent, diagnostics, plan.starts_beside ? &plan.y : nullptr);
 }
 
 }  // namespace jourdain::loops

@@ -62,10 +62,11 @@ using Entries = std::vector<std::size_t>;
 class StartSearch {
  public:
   StartSearch(const model::Mechanism& mechanism, const NumericClosure& closure, const Entries& independent,
-              support::Diagnostics& diagnostics)
+              const std::vector<double>* near, support::Diagnostics& diagnostics)
       : mechanism_(mechanism),
         closure_(closure),
         independent_(independent),
+        near_(near),
         diagnostics_(diagnostics),
         layout_(model::lay_out_coordinates(mechanism)),
         given_(given_values(mechanism, layout_)),
@@ -97,23 +98,36 @@ class StartSearch {
     Entries given;
     for (std::size_t k = 0; k < given_.position.size(); ++k)
       if (given_.position[k].line > 0) given.push_back(k);
-    const Configuration initial{0, initial_.y},
-        kept = closure_.assembled(initial, all_but(independent_, given));
+    Configuration initial{0, initial_.y};
+    if (near_) std::copy(near_->begin(), near_->end(), initial.y.begin());
+    const Configuration kept = closure_.assembled(initial, all_but(independent_, given));
     start_.configuration = kept;
     if (is_start(kept)) return true;
     start_.configuration = closure_.assembled(kept, all_but(independent_, {}));
     if (is_start(start_.configuration)) return true;
     start_.configuration = closure_.assembled(initial, all_but(independent_, {}));
-    if (is_closed(start_.configuration)) return report_reversed();
-    return find_beside(initial, given, given) || find_beside(initial, given, {}) || report_open();
+    if (is_start(start_.configuration)) return true;
+    if (is_closed(kept) && closure_.reversed(kept).empty()) start_.configuration = kept;
+    const Configuration nearest = start_.configuration;
+    if (is_closed(nearest) && !report_reversed()) return false;
+    if (is_closed(initial)) return true;  // as given, wherever its ranges are
+    if (!near_ && (find_beside(initial, given, given) || (!given.empty() && find_beside(initial, given, {}))))
+      return true;
+    if (!is_closed(nearest)) return report_open();
+    warn_of_range(nearest);
+    return true;
   }
 
-  /// From a dead point, such as bars that all lie on one line, no step leads anywhere: from others beside it, the same
-  /// ones on every machine. Coordinates in `given` start as they are, those in `held` stay.
+  /// From a dead point, such as bars that all lie on one line, no step leads anywhere, and from others out of range:
+  /// from positions beside, the same ones on every machine. Coordinates in `given` start as they are, those in `held`
+  /// stay.
   bool find_beside(const Configuration& initial, const Entries& given, const Entries& held) {
     constexpr int kTries = 4;  // at each distance
     support::Uniform uniform(4201);
     const std::vector<bool> moving = all_but(independent_, given);
+    if (std::count(moving.begin(), moving.end(), true) == 0) return false;
+    const model::Loop& open = most_open().first;
+    const bool is_out = is_closed(start_.configuration);
     for (const double distance : {0.2, 0.6, 1.5})  // rad or m
       for (int i = 0; i < kTries; ++i) {
         Vector by = Vector::Zero(at(moving.size()));
@@ -123,25 +137,51 @@ class StartSearch {
             closure_.assembled(closure_.displaced(initial, by), all_but(independent_, held));
         if (!is_start(found)) continue;
         start_.configuration = found;
-        report_beside();
+        start_.is_beside = true;
+        report_beside(open, is_out);
         return true;
       }
     return false;
   }
 
-  void report_beside() {
-    const model::Loop& loop = mechanism_.loops.front();
+  void report_beside(const model::Loop& loop, bool is_out) {
     diagnostics_.warning(
         loop.where,
-        "from the initial positions no step closes the loops: they are closed from others beside them",
+        fmt::format(
+            "from the initial positions no step closes the loops{}: they are closed from others beside "
+            "them",
+            is_out ? " within the ranges" : ""),
         "there may be several ways to close them: for another one, give joints positions that are near to "
         "it");
   }
 
-  bool report_open() {
+  void warn_of_range(const Configuration& config) {
+    for (std::size_t j = 0; j < mechanism_.joints.size(); ++j)
+      for (std::size_t c = 0; c < mechanism_.joints[j].coordinates.size(); ++c) {
+        const model::Coordinate& coordinate = mechanism_.joints[j].coordinates[c];
+        const auto entry = layout_.joints[j].position[c];
+        if (!coordinate.range || !entry) continue;
+        const auto value = static_cast<double>(config.y[at(*entry)]);
+        if (value < (*coordinate.range)[0] || value > (*coordinate.range)[1])
+          diagnostics_.warning(
+              mechanism_.joints[j].where,
+              fmt::format("the loops close with '{}' at {:.4g}, outside its range from {:g} to {:g}",
+                          shown(layout_.position_names[*entry]), value, (*coordinate.range)[0],
+                          (*coordinate.range)[1]),
+              "give positions that are nearer to what is meant");
+      }
+  }
+
+  /// Whose row is the worst, and that row.
+  std::pair<const model::Loop&, Eigen::Index> most_open() const {
     Eigen::Index worst = 0;
-    const long double residual = closure_.value(start_.configuration).cwiseAbs().maxCoeff(&worst);
-    const model::Loop& loop = model::loop_of_row(mechanism_, static_cast<std::size_t>(worst));
+    closure_.value(start_.configuration).cwiseAbs().maxCoeff(&worst);
+    return {model::loop_of_row(mechanism_, static_cast<std::size_t>(worst)), worst};
+  }
+
+  bool report_open() {
+    const auto [loop, worst] = most_open();
+    const long double residual = std::abs(closure_.value(start_.configuration)[worst]);
     diagnostics_.error(loop.where, fmt::format("{} cannot be closed from the initial values", in_words(loop)),
                        fmt::format("the nearest configuration found leaves constraint {} open by {:.3g}{}",
                                    row_name(worst), static_cast<double>(residual), as_given(independent_)));
@@ -301,7 +341,8 @@ class StartSearch {
   const model::Mechanism& mechanism_;
   const NumericClosure& closure_;
   const Entries& independent_;
-  Entries held_;  ///< independent velocities that stay
+  const std::vector<double>* near_;  ///< positions to begin from; null: the initial ones
+  Entries held_;                     ///< independent velocities that stay
   support::Diagnostics& diagnostics_;
   model::CoordinateLayout layout_;
   GivenValues given_;
@@ -313,8 +354,17 @@ class StartSearch {
 
 std::optional<Start> find_start(const model::Mechanism& mechanism, const NumericClosure& closure,
                                 const std::vector<std::size_t>& independent,
-                                support::Diagnostics& diagnostics) {
-  return StartSearch(mechanism, closure, independent, diagnostics).find();
+                                support::Diagnostics& diagnostics, const std::vector<double>* near) {
+  return StartSearch(mechanism, closure, independent, near, diagnostics).find();
+}
+
+void take_start(const Start& start, LoopPlan& plan) {
+  plan.moved = start.moved;
+  plan.starts_beside = start.is_beside;
+  plan.kept_y = start.kept_y;
+  plan.kept_z = start.kept_z;
+  for (const long double entry : start.configuration.y) plan.y.push_back(static_cast<double>(entry));
+  for (const long double entry : start.z) plan.z.push_back(static_cast<double>(entry));
 }
 
 }  // namespace jourdain::loops

@@ -18,19 +18,24 @@ struct Start {
   Vector z;
   std::vector<Moved> moved;
   std::vector<bool> kept_y, kept_z;  ///< entries that start as the description says
+  bool is_beside = false;            ///< found from beside a dead point
 };
 
 /// Closes the loops from the initial values; the velocities `independent` of the tree and their coordinates
 /// stay as they are.
 ///
-/// Positions that the description gives stay where the others can close the loops alone; otherwise all move
-/// from as near as those come, and where that closes nothing, as at a dead point, from positions beside them, after a
-/// warning. Velocities that it gives stay, to the bit, where they agree with the loops;
-/// given zeros yield to other given ones, and ones that agree to 1e-6 of the largest count as rounded and move
-/// to the nearest that agree. Nothing after diagnostics: loops that stay open or close with axes against each
-/// other, given velocities that conflict.
+/// Positions that the description gives stay where the others can close the loops alone; otherwise all move from as
+/// near as those come. Where that closes nothing, as at a dead point, or leaves ranges, the loops are closed from
+/// positions beside, after a warning. Velocities that it gives stay, to the bit, where they agree with the loops;
+/// given zeros yield to other given ones, and ones that agree to 1e-6 of the largest count as rounded and move to
+/// the nearest that agree. Nothing after diagnostics: loops that stay open or close with axes against each other,
+/// given velocities that conflict. From positions `near` a start where they are given: the one that other values of
+/// the parameters have, so that the way of closing stays.
 std::optional<Start> find_start(const model::Mechanism& mechanism, const NumericClosure& closure,
                                 const std::vector<std::size_t>& independent,
-                                support::Diagnostics& diagnostics);
+                                support::Diagnostics& diagnostics, const std::vector<double>* near = nullptr);
+
+/// What a plan says of its start.
+void take_start(const Start& start, LoopPlan& plan);
 
 }  // namespace jourdain::loops

@@ -33,6 +33,7 @@ struct LoopPlan {
   std::vector<double> y, z;            ///< where the mechanism starts, all coordinates of the tree
   std::vector<bool> kept_y, kept_z;    ///< of them those that start as the description says
   std::vector<Moved> moved;            ///< what closing the loops changed
+  bool starts_beside = false;          ///< found from beside the initial positions, which are a dead point
   std::size_t freedom = 0;             ///< degrees of freedom
   std::vector<std::string> redundant;  ///< rows that follow from others, by name
   std::vector<std::size_t> rows;       ///< the others

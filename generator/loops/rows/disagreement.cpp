@@ -4,12 +4,14 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "loops/record/loop_plan.hpp"
 #include "loops/rows/regular_rows.hpp"
 #include "model/coordinates.hpp"
 #include "model/loop_kinds.hpp"
 #include "reference/minimal.hpp"
+#include "support/matrix_index.hpp"
 
 namespace jourdain::loops {
 
@@ -22,6 +24,34 @@ constexpr long double kNearly = 1000, kLeastLimit = 1e-9L, kMostLimit = 0.03L;
 /// A row that differs that much from combinations of others is another one however its numbers are rounded.
 constexpr long double kUnlike = 1e-2L;
 
+/// Of rows that are lengths, m: mechanisms below 5 cm disagree by less.
+long double length_unit(const model::Mechanism& mechanism) {
+  constexpr long double kUsual = 0.05L;
+  const std::vector<double> parameters = model::default_values(mechanism);
+  long double largest = 0;
+  const auto reach = [&](const model::Placement& placement) {
+    long double square = 0;
+    for (const model::Expression& entry : placement.position) {
+      const long double length = entry.evaluate<double>(parameters);
+      square += length * length;
+    }
+    largest = std::max(largest, std::sqrt(square));
+  };
+  for (const model::Joint& joint : mechanism.joints) reach(joint.placement);
+  for (const model::Frame& frame : mechanism.frames) reach(frame.placement);
+  return largest > 0 ? std::min(1.0L, largest / kUsual) : 1.0L;
+}
+
+/// The unit of each row.
+std::vector<long double> units_of(const model::Mechanism& mechanism) {
+  const long double length = length_unit(mechanism);
+  std::vector<long double> units;
+  for (const model::Loop& loop : mechanism.loops)
+    for (const model::LoopRow& row : model::loop_kind(loop.type).rows)
+      units.push_back(row.is_length && model::loop_kind(loop).has_ends() ? length : 1.0L);
+  return units;
+}
+
 class Settlement {
  public:
   Settlement(const model::Mechanism& mechanism, NumericClosure& closure,
@@ -33,7 +63,8 @@ class Settlement {
         configurations_(configurations),
         diagnostics_(diagnostics),
         layout_(model::lay_out_coordinates(mechanism)),
-        names_(row_names(mechanism)) {}
+        names_(row_names(mechanism)),
+        units_(units_of(mechanism)) {}
 
   Disagreement run() {
     if (closure_.binds_velocities()) return {};  // what is left open there is no length
@@ -53,10 +84,10 @@ class Settlement {
     const Configuration nearest = closure_.assembled(initial, moving);
     const Matrix G = closure_.jacobian(nearest);
     const std::vector<std::size_t> regular = regular_rows({G}, tolerance), others = all_but(regular);
-    const long double apart = std::max(closure_.open(nearest), largest_rest(G, regular, others));
+    const long double apart = furthest_apart(nearest, G, regular, others);
     if (others.empty() || apart <= kAgrees || apart > tolerance || !are_sized(others, tolerance))
       return false;
-    const long double limit = std::clamp(kNearly * apart, kLeastLimit, kMostLimit);
+    const long double limit = std::clamp(kNearly * apart, kLeastLimit, kMostLimit) * largest_unit(others);
     closure_.disregard(others, limit);
     const std::vector<Configuration> seen =
         walk(closure_, closure_.assembled(nearest, moving), mechanism_, configurations_);
@@ -65,6 +96,24 @@ class Settlement {
     if (found_.rows.empty()) return false;
     for (const Configuration& c : seen) found_.amount = std::max(found_.amount, furthest_open(c));
     return true;
+  }
+
+  /// By how much rows are open there, and what `others` add to those that are solved for, in the rows' units.
+  long double furthest_apart(const Configuration& nearest, const Matrix& G,
+                             const std::vector<std::size_t>& regular,
+                             const std::vector<std::size_t>& others) const {
+    const Vector g = closure_.value(nearest);
+    long double apart = 0;
+    for (std::size_t r = 0; r < units_.size(); ++r)
+      apart = std::max(apart, std::abs(g[support::at(r)]) / units_[r]);
+    for (const std::size_t r : others) apart = std::max(apart, largest_rest(G, regular, {r}) / units_[r]);
+    return apart;
+  }
+
+  long double largest_unit(const std::vector<std::size_t>& rows) const {
+    long double largest = 0;
+    for (const std::size_t r : rows) largest = std::max(largest, units_[r]);
+    return largest;
   }
 
   /// Are the rows of a size that is known, so that a small one is no row of its own? Expressions may be of any.
@@ -116,6 +165,7 @@ class Settlement {
   support::Diagnostics& diagnostics_;
   model::CoordinateLayout layout_;
   std::vector<std::string> names_;
+  std::vector<long double> units_;  ///< of rows
   Disagreement found_;
 };
 

@@ -107,8 +107,7 @@ KeySection joint_section() {
        {"rpy", "3 numbers", "rad", "[0, 0, 0]", "its orientation: roll, pitch, yaw, R = Rz Ry Rx"},
        {"axis", "3 constants", "", "[0, 0, 1]",
         "in the joint's frame; planar: the normal n, x and y along the two axes after n where it is x, y or "
-        "z, along "
-        "x and -y where it is -z, else along e_z × n and n × (e_z × n)"},
+        "z, along x and -y where it is -z, else along e_z × n and n × (e_z × n)"},
        {"second_axis", "3 constants", "", "[1, 0, 0]", "universal: in the frame turned about axis"},
        {"pitch", "number", "m/rad", kRequired, "screw"},
        {"curve", "3 expressions", "m", kRequired, "curve: of its coordinate s; the child does not turn"},

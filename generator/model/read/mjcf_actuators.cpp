@@ -112,12 +112,23 @@ class ActuatorReader {
                     "the input is the force before the gear");
       return {};
     }
+    if (law.has_damping_ratio()) {
+      warn_of_ratio(e, label);
+      law.bias[2] = 0;
+    }
     if (law.is_position) warn_of_position(e, label, law);
     return law;
   }
 
+  void warn_of_ratio(const XmlElement& e, const std::string& label) {
+    if (file_.holder(e, "dampratio")) return warn_of(e, label, "dampratio", "kv damps");
+    const XmlElement* numbers = file_.holder(e, "biasprm");
+    file_.warning(numbers ? xml().value(*numbers, "biasprm") : xml().element(e),
+                  fmt::format("the damping ratio of {} is ignored", label),
+                  "in servos on positions the third number of the bias is one where it is positive");
+  }
+
   void warn_of_position(const XmlElement& e, const std::string& label, const MjcfLaw& law) {
-    warn_of(e, label, "dampratio", "kv damps");
     if (!law.foreign.empty())
       file_.warning(xml().element(e),
                     fmt::format("{} takes over numbers of a default class of <{}>", label, law.foreign),

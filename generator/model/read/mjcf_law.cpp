@@ -73,6 +73,7 @@ class Change {
     law_.gain[0] = number("kp", law_.gain[0]);
     law_.bias[1] = -law_.gain[0];
     law_.bias[2] = -number("kv", -law_.bias[2]);
+    if (level_.Attribute("dampratio")) law_.bias[2] = number("dampratio", 0);
     if (level_.Attribute("timeconst")) law_.dynamics = number("timeconst", 0) == 0 ? "none" : "filterexact";
     law_.is_position = kind == "position";
     if (!law_.is_position) law_.dynamics = "integrator";
@@ -82,6 +83,7 @@ class Change {
     types("fixed", "affine");
     law_.dynamics = "none";
     law_.gain[0] = number("kv", law_.gain[0]);
+    if (level_.Attribute("kv")) law_.is_unclear = false;
     std::fill(law_.bias.begin(), law_.bias.end(), 0.0);
     law_.bias[2] = -law_.gain[0];
     law_.foreign.clear();
@@ -134,7 +136,11 @@ class Change {
 bool MjcfLaw::is_affine() const {
   const bool has_gain = gain_type == "fixed" || (gain_type == "affine" && gain[1] == 0 && gain[2] == 0);
   return !is_unclear && has_gain && (bias_type == "none" || bias_type == "affine") &&
-         (is_position || dynamics == "none");
+         (dynamics == "none" || (is_position && dynamics.starts_with("filter")));
+}
+
+bool MjcfLaw::has_damping_ratio() const {
+  return bias_type == "affine" && gain[0] == -bias[1] && bias[2] > 0;
 }
 
 MjcfLaw law_of(MjcfFile& file, const XmlElement& actuator) {

@@ -22,6 +22,8 @@ struct MjcfLaw {
 
   /// Is the force gain₀ ctrl + bias₀ + bias₁ length + bias₂ speed, but for a lag?
   bool is_affine() const;
+  /// Of a servo on positions a damping that is positive is a share of the critical one (MuJoCo 3's engine_setconst.c).
+  bool has_damping_ratio() const;
 };
 
 MjcfLaw law_of(MjcfFile& file, const XmlElement& actuator);

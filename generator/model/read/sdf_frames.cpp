@@ -46,6 +46,16 @@ std::optional<std::string> SdfFrames::find(const std::string& scope, const std::
   return {};
 }
 
+std::string SdfFrames::placed(const std::string& name, const Frame& model) {
+  if (model.placed_name == "world") {
+    file_.error(model.placed_where, "'placement_frame' names 'world', which is no frame of the model");
+    file_.complete().structure = false;
+    return "";
+  }
+  const std::string scope = name.substr(0, name.size() - kModel.size());
+  return find(scope, model.placed_name, model.placed_where, "'placement_frame' names").value_or("");
+}
+
 void SdfFrames::settle() {
   for (auto& [name, frame] : frames_) {
     const std::string who = fmt::format("'{}' names", shown(name));
@@ -53,21 +63,22 @@ void SdfFrames::settle() {
       frame.base = find(frame.scope, frame.base_name, frame.where, who).value_or("");
     if (!frame.attached_name.empty())
       frame.attached = find(frame.scope, frame.attached_name, frame.where, who).value_or("");
-    if (!frame.placed_name.empty())
-      frame.placed = find(name.substr(0, name.size() - kModel.size()), frame.placed_name, frame.placed_where,
-                          "'placement_frame' names")
-                         .value_or("");
+    if (!frame.placed_name.empty()) frame.placed = placed(name, frame);
     for (std::string* whole : {&frame.base, &frame.attached, &frame.placed})
       if (!frames_.contains(*whole)) *whole = "";  // its own name is an error
   }
+}
+
+void SdfFrames::report_cycle(const std::string& name) {
+  file_.error(frames_.at(name).where, fmt::format("the pose of '{}' is relative to itself", shown(name)));
+  file_.complete().structure = false;
 }
 
 SdfPose SdfFrames::pose(const std::string& name) {
   Frame& frame = frames_.at(name);
   if (frame.is_resolved) return frame.in_world;
   if (frame.is_visited) {
-    file_.error(frame.where, fmt::format("the pose of '{}' is relative to itself", shown(name)));
-    file_.complete().structure = false;
+    report_cycle(name);
     frame.is_resolved = true;
     return {};
   }
@@ -90,11 +101,15 @@ std::optional<SdfPose> SdfFrames::pose_within(const std::string& name, const std
   SdfPose result;
   std::string at = name;
   for (std::size_t steps = 0; at != model; ++steps) {
-    if (at.empty() || steps > frames_.size()) {
+    if (steps > frames_.size()) {
+      report_cycle(name);
+      return {};
+    }
+    if (at.empty()) {
       const Frame& frame = frames_.at(model);
       file_.error(frame.placed_where,
-                  fmt::format("'{}' is not placed in its model's frame", shown(frame.placed_name)),
-                  "its pose would follow from that of the model, and that from it");
+                  fmt::format("'{}' is placed in the world, not in its model", shown(frame.placed_name)),
+                  "that leaves the pose of the model open");
       file_.complete().structure = false;
       return {};
     }

@@ -51,6 +51,9 @@ class SdfFrames {
   std::optional<BodyIndex> link(const std::string& name);
 
  private:
+  /// The whole name of the frame that the pose of `model`, called `name`, is of.
+  std::string placed(const std::string& name, const Frame& model);
+  void report_cycle(const std::string& name);
   /// In its base: that of a model whose pose is that of a frame in it follows from where that frame is in the model.
   SdfPose pose_in_base(const std::string& name);
   /// Of `name` in the model frame `model`, around it; nothing after a diagnostic where it is not placed from there.

@@ -125,6 +125,9 @@ class SdfReader {
                   const std::string& scope, bool in_static) {
     file_.check_elements(model, {"static", "pose", "link", "joint", "frame", "model", "include", "plugin",
                                  "gripper", "self_collide", "allow_auto_disable", "enable_wind"});
+    if (file_.flag_in(model, "enable_wind", false))
+      file_.diagnostics().warning(file_.element(*model.FirstChildElement("enable_wind")),
+                                  "<enable_wind> of a <model> is ignored: no wind blows");
     const char* placed = model.Attribute("placement_frame");
     const bool is_static = file_.flag_in(model, "static", false) || in_static;
     SourceRange where = file_.element(model);
