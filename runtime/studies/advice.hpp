@@ -42,8 +42,8 @@ struct Advice {
 
 /// Nothing where no point of the study answers the question. None beyond a predicted limit does; within a tolerance,
 /// none whose method misses it with a shorter step, by more than rounding and the reference can be off by. The step is
-/// then made as long as the tolerance and the limit allow, each length tried, and two a little shorter: whole numbers of
-/// steps make a sampling interval, or the whole time.
+/// then made as long as the tolerance and the limit allow, each length tried, and two a little shorter: whole numbers
+/// of steps make a sampling interval, or the whole time.
 std::optional<Advice> advise(const Question& question, const WorkPrecision& study, const Flow<double>& flow,
                              double sampling, const ReferenceSolution& reference,
                              const std::vector<double>& held_inputs, const MotionFacts& facts = {});
