@@ -29,6 +29,7 @@ class Spelling {
 };
 
 /// Parameters that would be printed as coordinates, velocities, inputs, time, entries or each other have other names.
+/// All of these are taken in `spelling`, so that values on the way have others, too.
 struct PrintedNames {
   model::Mechanism mechanism;  ///< with these names of parameters
   Spelling spelling;           ///< in which they are taken

@@ -36,8 +36,7 @@ class EquationPrinter {
         spelling_(printed.spelling),
         latex_(spelling_.is_latex()),
         uses_(ir::use_counts(program)) {
-    for (const ir::Output& output : program.outputs) spelling_.reserve(output_name(output));
-    emit::Names identifiers({});
+    emit::Names identifiers({});  // of labels; these differ, but not all as they are printed
     const auto unused = [&](const std::string& label, const std::string& otherwise) {
       return spelling_.unused(identifiers.unique(label, otherwise), "_v");
     };

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <numbers>
-#include <set>
+#include <string>
 
 namespace jourdain::model {
 
@@ -15,27 +16,25 @@ class Change {
   Change(MjcfFile& file, const XmlElement& level, MjcfLaw& law) : file_(file), level_(level), law_(law) {}
 
   void apply() {
-    const std::string kind = level_.Name();
-    if (kind == "position" || kind == "intvelocity")
-      position(kind);
-    else if (kind == "general")
-      general();
-    else if (kind == "motor")
-      motor();
-    else if (kind == "velocity")
-      velocity();
-    else if (kind == "damper")
-      damper();
-    else if (kind == "cylinder")
-      cylinder();
-    else if (kind == "muscle")
-      muscle();
-    else if (kind == "adhesion")
-      adhesion();
-    else
+    struct Kind {
+      void (Change::*change)();
+      bool is_foreign;  ///< to servos
+    };
+    static const std::map<std::string, Kind> kKinds = {{"general", {&Change::general, false}},
+                                                       {"motor", {&Change::motor, false}},
+                                                       {"position", {&Change::position, false}},
+                                                       {"velocity", {&Change::velocity, false}},
+                                                       {"intvelocity", {&Change::integrated_velocity, true}},
+                                                       {"damper", {&Change::damper, true}},
+                                                       {"cylinder", {&Change::cylinder, true}},
+                                                       {"muscle", {&Change::muscle, true}},
+                                                       {"adhesion", {&Change::adhesion, true}}};
+    const auto kind = kKinds.find(level_.Name());
+    if (kind == kKinds.end())
       law_.is_unclear = true;
-    static const std::set<std::string> kOwn{"general", "motor", "position", "velocity"};
-    if (!kOwn.contains(kind)) law_.foreign = kind;
+    else
+      (this->*kind->second.change)();
+    if (kind == kKinds.end() || kind->second.is_foreign) law_.foreign = level_.Name();
   }
 
  private:
@@ -68,15 +67,20 @@ class Change {
     law_.is_unclear = false;
   }
 
-  void position(const std::string& kind) {
+  void position() {
     types("fixed", "affine");
     law_.gain[0] = number("kp", law_.gain[0]);
     law_.bias[1] = -law_.gain[0];
     law_.bias[2] = -number("kv", -law_.bias[2]);
     if (level_.Attribute("dampratio")) law_.bias[2] = number("dampratio", 0);
     if (level_.Attribute("timeconst")) law_.dynamics = number("timeconst", 0) == 0 ? "none" : "filterexact";
-    law_.is_position = kind == "position";
-    if (!law_.is_position) law_.dynamics = "integrator";
+    law_.is_position = true;
+  }
+
+  void integrated_velocity() {
+    position();
+    law_.is_position = false;
+    law_.dynamics = "integrator";
   }
 
   void velocity() {
