@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 
-#include "loops/rows/disagreement.hpp"
 #include "model/loop_kinds.hpp"
 
 namespace jourdain::commands {
@@ -33,7 +32,7 @@ std::string LoopGuard::problem(const studies::Point<double>& point) const {
   if (closing.beyond > 0) return out_of_range(point);
   if (!loaded_.plan()->redundant.empty()) {
     const double open = flow_.residuals(point).position;
-    if (open > loops::most_left_open(loaded_.plan()->disagreement))
+    if (open > loaded_.plan()->most_left_open())
       return fmt::format(
           "at t = {:g} s constraints contradict each other: those that follow from the others are open by "
           "{:.2g} m",

@@ -17,7 +17,6 @@
 #include "commands/run_setup.hpp"
 #include "loops/plan/plan.hpp"
 #include "loops/plan/plan_text.hpp"
-#include "loops/rows/disagreement.hpp"
 #include "model/coordinates.hpp"
 #include "model/joint_kinds.hpp"
 #include "programs/displaced_tangent.hpp"
@@ -200,7 +199,7 @@ studies::Study make_study(const ReportArguments& arguments, const RunModel& mode
   }
   studies::StudyOptions options = arguments.study;
   if (const loops::LoopPlan* plan = model.loaded.plan(); plan && !plan->redundant.empty())
-    options.most_open = loops::most_left_open(plan->disagreement);
+    options.most_open = plan->most_left_open();
   options.conserves_energy = inputs.what.empty() && report::conserves_energy(model.loaded.mechanism);
   std::optional<studies::EmittedFreeBodies> free_bodies;
   if (free) free_bodies.emplace(emitted(*free, *inputs.inputs, options.hold_inputs));

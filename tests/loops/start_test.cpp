@@ -151,26 +151,58 @@ TEST(LoopStart, GivenPositionsAndRangesAreBothMet) {
   EXPECT_THAT(out.messages, HasSubstr("the loops close with 'coupler' at "));
 }
 
-/// Millimetres and less beside radians and the unit vectors of slides: no constraint is next to nothing for that.
-TEST(LoopStart, SmallMechanismsKeepTheirConstraints) {
-  for (const double crank : {0.4, 0.8e-3, 0.4e-3, 1e-4, 1e-5}) {
-    const std::string text = fmt::format(
-        "[model]\nname = \"m\"\n[[body]]\nname = \"c\"\nmass = 1e-8\ninertia = [{1}, {1}, "
-        "{1}]\n[[body]]\nname = \"r\"\n"
-        "mass = 1e-8\ninertia = [{1}, {1}, {1}]\n[[body]]\nname = \"p\"\nmass = 1e-8\n[[joint]]\nname = "
-        "\"crank\"\ntype "
-        "= \"revolute\"\nparent = \"world\"\nchild = \"c\"\n[[joint]]\nname = \"rod\"\ntype = "
-        "\"revolute\"\nparent = "
-        "\"c\"\nchild = \"r\"\nposition = [{0}, 0, 0]\n[[joint]]\nname = \"piston\"\ntype = "
-        "\"prismatic\"\nparent = "
-        "\"world\"\nchild = \"p\"\naxis = [1, 0, 0]\n[[frame]]\nname = \"tip\"\nbody = \"r\"\nposition = "
-        "[{2}, 0, 0]\n"
-        "[[loop]]\nname = \"l\"\ntype = \"planar_pin\"\nfrom = \"p\"\nto = \"tip\"\n",
-        crank, 1e-9 * crank * crank, 2.5 * crank);
-    const Result result = plan(text);
-    ASSERT_TRUE(result.plan) << crank << result.messages;
-    EXPECT_EQ(result.plan->freedom, 1u) << crank << result.messages;
-    EXPECT_TRUE(result.plan->redundant.empty()) << crank;
+/// A slider-crank of that size, m, whose slide starts far from where it closes; `crank` may give an initial position.
+std::string slider_crank(double size, const std::string& crank) {
+  std::string text = fmt::format("[model]\nname = \"slider_crank\"\ngravity = [0, {}, 0]\n", -9.81 * size);
+  for (const char* body : {"crank_bar", "rod_bar", "slider"})
+    text += fmt::format("[[body]]\nname = \"{0}\"\nmass = 1\ninertia = [{1}, {1}, {1}]\n", body,
+                        0.1 * size * size);
+  return text + fmt::format(R"([[joint]]
+name = "crank"
+type = "revolute"
+parent = "world"
+child = "crank_bar"
+{2}
+[[joint]]
+name = "rod"
+type = "revolute"
+parent = "crank_bar"
+child = "rod_bar"
+position = [{0}, 0, 0]
+[[joint]]
+name = "slide"
+type = "prismatic"
+parent = "world"
+child = "slider"
+axis = [1, 0, 0]
+[[frame]]
+name = "end"
+body = "rod_bar"
+position = [{1}, 0, 0]
+[[loop]]
+name = "pin"
+type = "planar_pin"
+from = "slider"
+to = "end"
+)",
+                            0.4 * size, size, crank);
+}
+
+/// Micrometres or kilometres beside radians and the unit vectors of slides: no constraint is next to nothing for that,
+/// and what is given stays.
+TEST(LoopStart, MechanismsOfAnySizeCloseAlike) {
+  for (const double size : {2.5e-5, 2.5e-4, 1e-3, 2e-3, 0.05, 1.0, 100.0, 1e3, 1e5}) {
+    const Result kept = plan(slider_crank(size, "initial_position = 0.5"));
+    ASSERT_TRUE(kept.plan) << size << ": " << kept.messages;
+    EXPECT_EQ(kept.plan->freedom, 1u) << size << ": " << kept.messages;
+    EXPECT_TRUE(kept.plan->redundant.empty()) << size;
+    EXPECT_EQ(kept.plan->y[0], 0.5) << size;
+    const double height = 0.4 * std::sin(0.5);
+    EXPECT_NEAR(kept.plan->y[1], -0.5 - std::asin(height), 1e-12) << size;
+    EXPECT_NEAR(kept.plan->y[2] / size, 0.4 * std::cos(0.5) + std::sqrt(1 - height * height), 1e-12) << size;
+    const Result straight = plan(slider_crank(size, ""));
+    ASSERT_TRUE(straight.plan) << size << ": " << straight.messages;
+    EXPECT_NEAR(straight.plan->y[2] / size, 1.4, 1e-12) << size;
   }
 }
 

@@ -60,7 +60,7 @@ class Planner {
     plan_.rows = plan_.disagreeing.empty() ? kept_rows(closure_, configurations_, jacobians_)
                                            : all_but(plan_.disagreeing);
     for (const std::size_t r : all_but(plan_.rows)) plan_.redundant.push_back(names_[r]);
-    if (!check_later(mechanism_, closure_, start_, plan_.rows, plan_.disagreement, diagnostics_)) return {};
+    if (!check_later(mechanism_, closure_, start_, plan_, diagnostics_)) return {};
     plan_.freedom = layout_.velocity_count() - std::min(layout_.velocity_count(), plan_.rows.size());
     if (!check_moved_inertia(mechanism_, configurations_, jacobians_, diagnostics_)) return {};
     massless_ = massless_in_tree(mechanism_, start_);
@@ -94,6 +94,7 @@ class Planner {
         settle_disagreement(mechanism_, closure_, named_independent(), kConfigurations, diagnostics_);
     plan_.disagreeing = found.rows;
     plan_.disagreement = found.amount;
+    plan_.length_unit = static_cast<double>(closure_.units().length);
     const std::optional<Start> start = find_start(mechanism_, closure_, named_independent(), diagnostics_);
     if (!start) return false;
     start_ = start->configuration;

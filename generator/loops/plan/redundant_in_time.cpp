@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "loops/record/loop_plan.hpp"
-#include "loops/rows/disagreement.hpp"
 #include "loops/rows/regular_rows.hpp"
 #include "model/loop_kinds.hpp"
 #include "model/time_dependence.hpp"
@@ -51,13 +50,13 @@ class Later {
 }  // namespace
 
 bool check_later(const model::Mechanism& mechanism, NumericClosure closure, const Configuration& start,
-                 const std::vector<std::size_t>& kept, double left_open, support::Diagnostics& diagnostics) {
+                 const LoopPlan& plan, support::Diagnostics& diagnostics) {
   constexpr int kSteps = 100;
   constexpr double kRounded = 1e-6;
-  const std::vector<std::size_t> others = all_but(kept, closure.row_count());
+  const std::vector<std::size_t> others = all_but(plan.rows, closure.row_count());
   if (others.empty() || !model::time_dependence(mechanism).positions) return true;
   closure.disregard(others, std::numeric_limits<long double>::max());
-  const long double allowed = most_left_open(left_open);
+  const long double allowed = plan.most_left_open();
   Later later(closure, start);
   long double worst = 0, when = 0;
   std::size_t row = others.front();
@@ -70,7 +69,7 @@ bool check_later(const model::Mechanism& mechanism, NumericClosure closure, cons
         row = r;
       }
   }
-  if (worst <= std::max(kRounded, 10 * left_open)) return true;
+  if (worst <= std::max(kRounded, 10 * plan.disagreement)) return true;
   const model::Loop& loop = model::loop_of_row(mechanism, row);
   if (worst <= allowed) {
     diagnostics.warning(

@@ -40,13 +40,10 @@ Matrix rows_of(const Matrix& G, const std::vector<std::size_t>& rows) {
 
 /// Which rows are lengths that tell how much a row weighs. What rolls may bind light bodies and heavy ones: there each
 /// row weighs what it weighs.
-std::vector<bool> lengths_of(const model::Mechanism& mechanism) {
-  std::vector<bool> is_length;
-  const bool tells = !model::binds_velocities(mechanism);
-  for (const model::Loop& loop : mechanism.loops)
-    for (const model::LoopRow& row : model::loop_kind(loop.type).rows)
-      is_length.push_back(tells && row.is_length);
-  return is_length;
+std::vector<bool> telling_rows(const model::Mechanism& mechanism) {
+  std::vector<bool> rows = length_rows(mechanism);
+  if (model::binds_velocities(mechanism)) rows.assign(rows.size(), false);
+  return rows;
 }
 
 /// How much a row that is next to nothing at the start, or holds bodies far heavier than others do, weighs at most; 0
@@ -66,7 +63,7 @@ Vector greatest_weights(const model::Mechanism& mechanism, const std::vector<Con
 void set_row_lengths(const model::Mechanism& mechanism, const std::vector<Configuration>& configurations,
                      const std::vector<Matrix>& jacobians, LoopPlan& plan) {
   const Vector S = schur_matrix(mechanism, configurations.front(), jacobians.front()).diagonal();
-  const std::vector<bool> is_length = lengths_of(mechanism);
+  const std::vector<bool> is_length = telling_rows(mechanism);
   long double largest = 0;
   for (std::size_t r = 0; r < is_length.size(); ++r)
     if (is_length[r]) largest = std::max(largest, S[at(r)]);
@@ -145,7 +142,7 @@ bool limit_regularisation(const model::Mechanism& mechanism, const std::vector<C
 void set_sharing_lengths(const model::Mechanism& mechanism, const std::vector<Configuration>& configurations,
                          const std::vector<Matrix>& jacobians, LoopPlan& plan) {
   const Vector largest = greatest_weights(mechanism, configurations, jacobians);
-  const std::vector<bool> is_length = lengths_of(mechanism);
+  const std::vector<bool> is_length = telling_rows(mechanism);
   const long double size = plan.closing_regularisation / kLeast;
   for (const std::size_t r : plan.sharing) {
     const bool scaled = largest[at(r)] > 0 && (!is_length[r] || largest[at(r)] < kLight * size);

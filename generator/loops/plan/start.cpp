@@ -128,11 +128,11 @@ class StartSearch {
     if (std::count(moving.begin(), moving.end(), true) == 0) return false;
     const model::Loop& open = most_open().first;
     const bool is_out = is_closed(start_.configuration);
-    for (const double distance : {0.2, 0.6, 1.5})  // rad or m
+    for (const double distance : {0.2, 0.6, 1.5})  // in units
       for (int i = 0; i < kTries; ++i) {
         Vector by = Vector::Zero(at(moving.size()));
         for (std::size_t k = 0; k < moving.size(); ++k)
-          if (moving[k]) by[at(k)] = uniform(-distance, distance);
+          if (moving[k]) by[at(k)] = closure_.units().velocities[k] * uniform(-distance, distance);
         const Configuration found =
             closure_.assembled(closure_.displaced(initial, by), all_but(independent_, held));
         if (!is_start(found)) continue;

@@ -26,6 +26,8 @@ std::vector<std::size_t> LoopPlan::carried() const {
   return list;
 }
 
+double LoopPlan::most_left_open() const { return std::max(kAskew * length_unit, 10 * disagreement); }
+
 double LoopPlan::least_regularity() const {
   switch (treatment) {
     case LoopTreatment::kExplicit:

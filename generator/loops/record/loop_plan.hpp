@@ -12,6 +12,9 @@
 
 namespace jourdain::loops {
 
+/// Overconstrained mechanisms whose parts fit to this move, as those that are built do; m, rad.
+inline constexpr double kAskew = 2e-3;
+
 /// An initial value that closing the loops changed.
 struct Moved {
   std::string coordinate;
@@ -44,6 +47,7 @@ struct LoopPlan {
   /// the configurations seen: they stay open.
   std::vector<std::size_t> disagreeing;
   double disagreement = 0;
+  double length_unit = 1;                ///< m, in which tolerances of lengths are measured: see Units
   std::vector<std::size_t> independent;  ///< velocities; empty with multipliers
   std::vector<Block> blocks;  ///< of the dependent ones, in the order of solution; empty with multipliers
   /// Smallest singular value of the dependent block over the largest of G, rows and columns scaled; the worst
@@ -71,6 +75,8 @@ struct LoopPlan {
   std::vector<std::size_t> solved_rows() const;
   /// How far rows that disagree may be open on the branch that is meant: a hundred times what was seen.
   double tolerated_disagreement() const { return 100 * disagreement; }
+  /// By how much rows that follow from others may be open anywhere, m, rad.
+  double most_left_open() const;
   bool is_reduced() const { return treatment != model::LoopTreatment::kMultipliers; }
   /// Below it a state's `regularity` says that what is solved for is singular, or nearly so. Multipliers that
   /// were asked for pass singular configurations straight on: 0.

@@ -23,11 +23,20 @@ Matrix columns_of(const Matrix& A, const std::vector<bool>& moving) {
   return B;
 }
 
+Vector vector_of(const std::vector<long double>& entries) {
+  return Eigen::Map<const Vector>(entries.data(), at(entries.size()));
+}
+
 }  // namespace
 
 NumericClosure::NumericClosure(const model::Mechanism& mechanism, const ConstraintPrograms& programs,
                                std::vector<double> parameters)
-    : programs_(programs), parameters_(std::move(parameters)), rows_(programs.value.outputs.size()) {
+    : programs_(programs),
+      parameters_(std::move(parameters)),
+      rows_(programs.value.outputs.size()),
+      units_(units_of(mechanism, parameters_)),
+      row_units_(vector_of(units_.rows)),
+      velocity_units_(vector_of(units_.velocities)) {
   const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
   tangent_ = layout.tangent;
   velocities_ = layout.velocity_count();
@@ -68,7 +77,7 @@ void NumericClosure::disregard(const std::vector<std::size_t>& rows, long double
 
 bool NumericClosure::is_closed(const Configuration& config) const {
   const Vector g = value(config);
-  return regarded(g).lpNorm<Eigen::Infinity>() <= kClosed &&
+  return counted(g).lpNorm<Eigen::Infinity>() <= kClosed &&
          std::all_of(disregarded_.begin(), disregarded_.end(),
                      [&](std::size_t r) { return std::abs(g[at(r)]) <= limit_; });
 }
@@ -81,6 +90,19 @@ Vector NumericClosure::regarded(Vector g) const {
 Matrix NumericClosure::regarded(Matrix G) const {
   for (const std::size_t r : disregarded_) G.row(at(r)).setZero();
   return G;
+}
+
+Vector NumericClosure::counted(const Vector& g) const {
+  return regarded(Vector(g.cwiseQuotient(row_units_)));
+}
+
+Vector NumericClosure::closing(const Matrix& G, const Vector& g, const std::vector<bool>& moving) const {
+  const Matrix in_units = row_units_.cwiseInverse().asDiagonal() * G * velocity_units_.asDiagonal();
+  return velocity_units_.cwiseProduct(least_norm(columns_of(regarded(in_units), moving), -g));
+}
+
+long double NumericClosure::extent(const Vector& displacement) const {
+  return displacement.cwiseQuotient(velocity_units_).lpNorm<Eigen::Infinity>();
 }
 
 Vector NumericClosure::opening_rate(const Configuration& config, const Vector& z) const {
@@ -159,18 +181,18 @@ Configuration NumericClosure::displaced(const Configuration& from, const Vector&
 
 Configuration NumericClosure::assembled(Configuration config, const std::vector<bool>& moving) const {
   constexpr int kSteps = 200;
-  constexpr long double kLongest = 0.3L;  // of one step, rad or m: further the linearisation says little
-  Vector g = regarded(value(config));
+  constexpr long double kLongest = 0.3L;  // of one step, in units: further the linearisation says little
+  Vector g = counted(value(config));
   for (int i = 0; i < kSteps && !(g.lpNorm<Eigen::Infinity>() <= kClosed / 1e5L); ++i) {
-    Vector step = least_norm(columns_of(regarded(jacobian(config, RowsOf::kPositions)), moving), -g);
+    Vector step = closing(jacobian(config, RowsOf::kPositions), g, moving);
     if (!step.allFinite()) break;
-    if (step.lpNorm<Eigen::Infinity>() > kLongest) step *= kLongest / step.lpNorm<Eigen::Infinity>();
+    if (const long double length = extent(step); length > kLongest) step *= kLongest / length;
     Configuration best = displaced(config, step);
-    Vector better = regarded(value(best));
+    Vector better = counted(value(best));
     for (int halvings = 0; halvings < 20 && !(better.norm() < g.norm()); ++halvings) {
       step /= 2;
       best = displaced(config, step);
-      better = regarded(value(best));
+      better = counted(value(best));
     }
     if (!(better.norm() < g.norm())) break;
     config = best;
@@ -184,7 +206,7 @@ Vector NumericClosure::consistent(const Configuration& config, const Vector& z,
   Vector rate = opening_rate(config, z);
   if (rows == RowsOf::kPositions)
     for (const std::size_t r : without_position_) rate[at(r)] = 0;
-  return z - least_norm(columns_of(regarded(jacobian(config, rows)), moving), rate);
+  return z + closing(jacobian(config, rows), rate.cwiseQuotient(row_units_), moving);
 }
 
 Vector least_norm(const Matrix& A, const Vector& b) {
@@ -206,10 +228,10 @@ bool in_range(const Configuration& config, const model::Mechanism& mechanism,
 
 namespace {
 
-/// A step of at most 0.7 rad or m in which nothing but time moves a mechanism without freedom.
+/// A step of at most 0.7 units in which nothing but time moves a mechanism without freedom.
 Configuration driven(const NumericClosure& closure, const Configuration& from, long double time) {
   const Vector z = closure.consistent(from, Vector::Zero(at(closure.velocity_count())), {});
-  const long double fastest = z.lpNorm<Eigen::Infinity>();
+  const long double fastest = closure.extent(z);
   if (fastest * time > 0.7L) time = 0.7L / fastest;
   Configuration next = closure.displaced(from, z * time);
   next.t += time;
@@ -226,10 +248,11 @@ std::vector<Configuration> walk(const NumericClosure& closure, const Configurati
   for (std::size_t tries = 0; tries < 10 * count && found.size() < count; ++tries) {
     const Configuration& from = found[tries % found.size()];
     Vector direction(at(closure.velocity_count()));
-    for (long double& entry : direction) entry = uniform(-1, 1);
+    for (std::size_t k = 0; k < closure.velocity_count(); ++k)
+      direction[at(k)] = closure.units().velocities[k] * uniform(-1, 1);
     direction = closure.consistent(from, direction, {}, RowsOf::kPositions) -
                 closure.consistent(from, Vector::Zero(direction.size()), {}, RowsOf::kPositions);
-    const long double length = direction.lpNorm<Eigen::Infinity>();
+    const long double length = closure.extent(direction);
     if (!(length > 0)) continue;
     const long double stride = uniform(0.1, 0.7), time = uniform(0, 1);
     Configuration next = closure.displaced(from, direction * (stride / length));

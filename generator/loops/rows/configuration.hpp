@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "loops/rows/constraints.hpp"
+#include "loops/rows/units.hpp"
 #include "model/coordinates.hpp"
 
 namespace jourdain::loops {
@@ -21,7 +22,7 @@ struct Configuration {
   Vector states = {};  ///< beside the mechanism, where motions follow them; none: where they start
 };
 
-/// Residuals of rows with lengths below this count as closed, m (of products of unit vectors: without unit).
+/// Residuals below this count as closed, in the rows' units (see Units).
 inline constexpr long double kClosed = 1e-14L;
 
 /// Which rows count: all, or those that hold positions.
@@ -35,6 +36,7 @@ class NumericClosure {
 
   std::size_t row_count() const { return rows_; }
   std::size_t velocity_count() const { return velocities_; }
+  const Units& units() const { return units_; }
   const model::Tangent& tangent() const { return tangent_; }
   bool binds_velocities() const { return !without_position_.empty(); }
 
@@ -43,8 +45,8 @@ class NumericClosure {
   void disregard(const std::vector<std::size_t>& rows, long double limit);
   /// Whether the rows that are regarded are closed, and the others nearly so.
   bool is_closed(const Configuration& at) const;
-  /// max |g| of the other rows.
-  long double open(const Configuration& at) const { return regarded(value(at)).lpNorm<Eigen::Infinity>(); }
+  /// max |g| of the other rows, in their units.
+  long double open(const Configuration& at) const { return counted(value(at)).lpNorm<Eigen::Infinity>(); }
   /// ġ at these velocities, zero for rows that are disregarded.
   Vector opening_rate(const Configuration& at, const Vector& z) const;
 
@@ -62,6 +64,8 @@ class NumericClosure {
   /// Loops that are closed with axes against each other.
   std::vector<std::size_t> reversed(const Configuration& at) const;
 
+  /// What a displacement or velocity amounts to, in the units of its entries.
+  long double extent(const Vector& displacement) const;
   /// y moved by the displacement; quaternions keep unit length.
   Configuration displaced(const Configuration& from, const Vector& displacement) const;
 
@@ -81,6 +85,10 @@ class NumericClosure {
   /// Without the rows that are disregarded.
   Vector regarded(Vector g) const;
   Matrix regarded(Matrix G) const;
+  /// The same in units.
+  Vector counted(const Vector& g) const;
+  /// The displacement d of those in `moving`, least in units, with G d = −g, of which g is in units.
+  Vector closing(const Matrix& G, const Vector& g, const std::vector<bool>& moving) const;
   ir::LeafValues<long double> leaves(const Configuration& at, const Vector& z) const;
 
   const ConstraintPrograms& programs_;
@@ -89,6 +97,8 @@ class NumericClosure {
   std::vector<double> parameters_;
   std::vector<long double> states_;  ///< at the start
   std::size_t rows_ = 0, velocities_ = 0, inputs_ = 0;
+  Units units_;
+  Vector row_units_, velocity_units_;  ///< those of `units_`
   std::vector<std::size_t> disregarded_;
   long double limit_ = 0;
 };

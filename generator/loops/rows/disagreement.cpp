@@ -24,34 +24,6 @@ constexpr long double kNearly = 1000, kLeastLimit = 1e-9L, kMostLimit = 0.03L;
 /// A row that differs that much from combinations of others is another one however its numbers are rounded.
 constexpr long double kUnlike = 1e-2L;
 
-/// Of rows that are lengths, m: mechanisms below 5 cm disagree by less.
-long double length_unit(const model::Mechanism& mechanism) {
-  constexpr long double kUsual = 0.05L;
-  const std::vector<double> parameters = model::default_values(mechanism);
-  long double largest = 0;
-  const auto reach = [&](const model::Placement& placement) {
-    long double square = 0;
-    for (const model::Expression& entry : placement.position) {
-      const long double length = entry.evaluate<double>(parameters);
-      square += length * length;
-    }
-    largest = std::max(largest, std::sqrt(square));
-  };
-  for (const model::Joint& joint : mechanism.joints) reach(joint.placement);
-  for (const model::Frame& frame : mechanism.frames) reach(frame.placement);
-  return largest > 0 ? std::min(1.0L, largest / kUsual) : 1.0L;
-}
-
-/// The unit of each row.
-std::vector<long double> units_of(const model::Mechanism& mechanism) {
-  const long double length = length_unit(mechanism);
-  std::vector<long double> units;
-  for (const model::Loop& loop : mechanism.loops)
-    for (const model::LoopRow& row : model::loop_kind(loop.type).rows)
-      units.push_back(row.is_length && model::loop_kind(loop).has_ends() ? length : 1.0L);
-  return units;
-}
-
 class Settlement {
  public:
   Settlement(const model::Mechanism& mechanism, NumericClosure& closure,
@@ -63,8 +35,7 @@ class Settlement {
         configurations_(configurations),
         diagnostics_(diagnostics),
         layout_(model::lay_out_coordinates(mechanism)),
-        names_(row_names(mechanism)),
-        units_(units_of(mechanism)) {}
+        names_(row_names(mechanism)) {}
 
   Disagreement run() {
     if (closure_.binds_velocities()) return {};  // what is left open there is no length
@@ -102,17 +73,16 @@ class Settlement {
   long double furthest_apart(const Configuration& nearest, const Matrix& G,
                              const std::vector<std::size_t>& regular,
                              const std::vector<std::size_t>& others) const {
-    const Vector g = closure_.value(nearest);
-    long double apart = 0;
-    for (std::size_t r = 0; r < units_.size(); ++r)
-      apart = std::max(apart, std::abs(g[support::at(r)]) / units_[r]);
-    for (const std::size_t r : others) apart = std::max(apart, largest_rest(G, regular, {r}) / units_[r]);
+    long double apart = closure_.open(nearest);
+    for (const std::size_t r : others) apart = std::max(apart, largest_rest(G, regular, {r}) / unit_of(r));
     return apart;
   }
 
+  long double unit_of(std::size_t row) const { return closure_.units().rows[row]; }
+
   long double largest_unit(const std::vector<std::size_t>& rows) const {
     long double largest = 0;
-    for (const std::size_t r : rows) largest = std::max(largest, units_[r]);
+    for (const std::size_t r : rows) largest = std::max(largest, unit_of(r));
     return largest;
   }
 
@@ -165,7 +135,6 @@ class Settlement {
   support::Diagnostics& diagnostics_;
   model::CoordinateLayout layout_;
   std::vector<std::string> names_;
-  std::vector<long double> units_;  ///< of rows
   Disagreement found_;
 };
 

@@ -1,7 +1,6 @@
 // Redundant rows that do not quite agree with the others.
 #pragma once
 
-#include <algorithm>
 #include <vector>
 
 #include "loops/rows/configuration.hpp"
@@ -9,11 +8,6 @@
 #include "support/diagnostics.hpp"
 
 namespace jourdain::loops {
-
-/// Overconstrained mechanisms whose parts fit to this move, as those that are built do; m, rad.
-inline constexpr double kAskew = 2e-3;
-/// By how much redundant rows may be open that were by `disagreement` at the configurations seen.
-inline double most_left_open(double disagreement) { return std::max(kAskew, 10 * disagreement); }
 
 struct Disagreement {
   std::vector<std::size_t> rows;

@@ -94,7 +94,8 @@ Mechanism read_root(MjcfFile& file, const ReadOptions& options) {
   MjcfBodies bodies = MjcfBodyReader(file, options).read();
   Mechanism& mechanism = bodies.mechanism;
   const XmlElement& root = file.root();
-  mechanism.name = root.Attribute("model") ? root.Attribute("model") : "MuJoCo Model";
+  const char* const model = root.Attribute("model");
+  mechanism.name = model && *model ? file.xml().name(root, "model").value_or("") : "MuJoCo Model";
   mechanism.where = file.xml().element(root);
   read_options(file, mechanism);
   if (file.xml().complete().structure) {

@@ -62,9 +62,9 @@ std::optional<std::string> UrdfFile::required(const XmlElement& where, const cha
   return {};
 }
 
-std::optional<std::string> UrdfFile::name(const XmlElement& where) {
+std::optional<std::string> UrdfFile::name(const XmlElement& where, const char* attribute) {
   constexpr int kLongest = 100;
-  std::optional<std::string> text = required(where, "name");
+  std::optional<std::string> text = required(where, attribute);
   if (!text) return {};
   int length = 0;
   bool printable = true;
@@ -77,7 +77,7 @@ std::optional<std::string> UrdfFile::name(const XmlElement& where) {
   const char* const why = length == 0  ? "is empty"
                           : !printable ? "has characters that cannot be printed"
                                        : "is longer than 100 characters";
-  diagnostics_.error(value(where, "name"), fmt::format("the name of <{}> {}", where.Name(), why));
+  diagnostics_.error(value(where, attribute), fmt::format("the name of <{}> {}", where.Name(), why));
   return {};
 }
 

@@ -50,7 +50,7 @@ class UrdfFile {
   /// The text of an attribute that must be there; nothing after a diagnostic.
   std::optional<std::string> required(const XmlElement& element, const char* attribute);
   /// A name: required, printable, not empty, at most 100 characters.
-  std::optional<std::string> name(const XmlElement& element);
+  std::optional<std::string> name(const XmlElement& element, const char* attribute = "name");
 
   /// A number that must be there; 0 after a diagnostic.
   double required_number(const XmlElement& element, const char* attribute);
