@@ -55,6 +55,7 @@ int report_on(const CostArguments& arguments, const RunModel& model, const Compi
   if (!inputs) return status;
   studies::Flow<double> flow(loaded.table(), *inputs->inputs);
   flow.set_start(inputs->start);
+  flow.leave_open(left_open_rows(model.loaded));
   if (!check_closed(model, flow) || !check_rates(flow)) return kModelWrong;
   bar.show("stack and code", 0);
   const studies::ReportHead head = head_of(arguments, model.loaded, compiler_text(number));
@@ -76,7 +77,11 @@ bool closes(const RunModel& model, const CompiledModel& compiled) {
   studies::set_parameters(loaded.table(), model.parameters);
   const studies::ConstantInputs inputs(
       std::vector<double>(static_cast<std::size_t>(loaded.table().input_count)));
-  return check_closed(model, studies::Flow<double>(loaded.table(), inputs));
+  if (!tell_start(model)) return false;
+  studies::Flow<double> flow(loaded.table(), inputs);
+  flow.set_start(model.start.x);
+  flow.leave_open(left_open_rows(model.loaded));
+  return check_closed(model, flow);
 }
 
 /// The same of a target; nothing is timed.

@@ -52,6 +52,26 @@ void EmissionArguments::add_to(CLI::App& command) {
   command.add_flag("--clock", clock, "keep the time in State, though nothing depends on it");
 }
 
+namespace {
+
+/// Parameters that the C interface takes at one value, at which loops are proven to close.
+void tell_held_parameters(const LoadedMechanism& loaded) {
+  const loops::ProvenBox* proven = loaded.plan() ? loaded.plan()->proven() : nullptr;
+  if (!proven) return;
+  std::vector<std::string> held;
+  for (const loops::ProvenRange& range : proven->parameters)
+    if (range.low == range.high)
+      held.push_back(fmt::format("{} = {:g}", loaded.mechanism.parameters[range.index].name, range.low));
+  if (!held.empty())
+    fmt::print(
+        stderr,
+        "note: the loops are proven to close at {}, and no other values of these are taken: a 'range' of a "
+        "parameter in the description extends that\n",
+        fmt::join(held, ", "));
+}
+
+}  // namespace
+
 std::string EmissionArguments::apply(LoadedMechanism& loaded) const {
   if (std::string conflict = check_derivative_terms(functions, loaded.options.derivative_terms);
       !conflict.empty())
@@ -72,6 +92,7 @@ std::string EmissionArguments::apply(LoadedMechanism& loaded) const {
   choices.has_double = real != "float";
   choices.has_float = real != "double";
   choices.has_interface = interface;
+  if (interface) tell_held_parameters(loaded);
   choices.packs = packs;
   choices.own_sines = !libm;
   choices.lanes = !no_lanes;

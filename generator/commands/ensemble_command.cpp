@@ -128,6 +128,7 @@ int run(EnsembleArguments arguments) {
   if (!is_sound_where_drawn(*model, arguments.run.model.path, *spreads, arguments.choices.seed,
                             arguments.states))
     return kModelWrong;
+  if (!starts_follow(*model, *spreads) && !tell_start(*model)) return kUsage;
   const loops::LoopPlan* const plan = model->loaded.plan();
   const auto is_of_input = [](const Spread& spread) { return spread.of == Spread::Of::kInput; };
   if (plan && plan->treatment == model::LoopTreatment::kMultipliers &&

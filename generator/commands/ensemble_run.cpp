@@ -17,20 +17,6 @@
 
 namespace jourdain::commands {
 
-namespace {
-
-std::string real_of(double value) { return fmt::format("Real({})", fmt::format("{:#}", value)); }
-
-/// "start.drawn[0] = jourdain::normal_about(1, 0.05, seed, k, 0);", and what takes it.
-std::string drawing(const Spread& spread, std::size_t number, const std::string& base,
-                    const std::string& target) {
-  return fmt::format(
-      "  start.drawn[{0}] = jourdain::{1}_about({2}, {3:#}, seed, k, {0});\n  {4} = "
-      "Real(start.drawn[{0}]);\n",
-      number, spread.is_normal ? "normal" : "uniform", base, spread.width, target);
-}
-
-/// Do initial values follow a parameter that is drawn?
 bool starts_follow(const RunModel& model, const std::vector<Spread>& spreads) {
   const auto start_at = [&model](const std::vector<double>& parameters) {
     return reference::Reference<double>(model.loaded.mechanism, parameters).initial_state();
@@ -45,10 +31,23 @@ bool starts_follow(const RunModel& model, const std::vector<Spread>& spreads) {
   });
 }
 
+namespace {
+
+std::string real_of(double value) { return fmt::format("Real({})", fmt::format("{:#}", value)); }
+
+/// "start.drawn[0] = jourdain::normal_about(1, 0.05, seed, k, 0);", and what takes it.
+std::string drawing(const Spread& spread, std::size_t number, const std::string& base,
+                    const std::string& target) {
+  return fmt::format(
+      "  start.drawn[{0}] = jourdain::{1}_about({2}, {3:#}, seed, k, {0});\n  {4} = "
+      "Real(start.drawn[{0}]);\n",
+      number, spread.is_normal ? "normal" : "uniform", base, spread.width, target);
+}
+
 /// Where states start at the settings; empty where `initial_state` knows it.
 std::string start_text(const RunModel& model, const programs::SceneFacts& facts,
                        const std::vector<Spread>& spreads) {
-  const std::vector<double> start = start_at_settings(model);
+  const std::vector<double>& start = model.start.x;
   if (start.empty() || starts_follow(model, spreads)) return "";
   std::string text;
   const std::size_t positions = facts.positions.size();

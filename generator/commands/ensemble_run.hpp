@@ -19,6 +19,9 @@ struct EnsembleChoices {
   std::vector<double> inputs;  ///< one value each
 };
 
+/// Do initial values follow a parameter that is drawn?
+bool starts_follow(const RunModel& model, const std::vector<Spread>& spreads);
+
 /// Compiles once; runs as often as asked for.
 class EnsembleProgram {
  public:

@@ -196,6 +196,7 @@ studies::Study make_study(const ReportArguments& arguments, const RunModel& mode
   if (long_table) {
     long_flow.emplace(*long_table, *inputs.inputs);
     long_flow->set_start(flow.start().x);
+    long_flow->leave_open(left_open_rows(model.loaded));
   }
   studies::StudyOptions options = arguments.study;
   if (const loops::LoopPlan* plan = model.loaded.plan(); plan && !plan->redundant.empty())
@@ -309,6 +310,7 @@ int run(ReportArguments arguments) {
   if (!inputs) return status;
   studies::Flow<double> flow(table, *inputs->inputs);
   flow.set_start(inputs->start);
+  flow.leave_open(left_open_rows(model->loaded));
   if (!check_closed(*model, flow) || !check_rates(flow)) return kModelWrong;
   const studies::Study study = make_study(
       arguments, *model, *inputs, programs::displaced_tangent(compiled.facts), flow, long_table, free, bar);

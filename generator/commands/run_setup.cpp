@@ -121,13 +121,49 @@ void RunArguments::add_to(CLI::App& command) {
   command.add_flag("--no-lanes", no_lanes, kNoLanesHelp);
 }
 
-bool is_sound_at(const RunModel& model, const std::string& path, const std::string& cause) {
+namespace {
+
+/// The description with the parameters' values in place of its own.
+std::optional<model::Mechanism> read_at(const RunModel& model, support::Diagnostics& diagnostics) {
   model::ReadOptions read = model.loaded.read;
   const std::vector<model::Parameter>& parameters = model.loaded.mechanism.parameters;
   for (std::size_t i = 0; i < model.parameters.size(); ++i)
     if (model.parameters[i] != parameters[i].value) read.parameters[parameters[i].name] = model.parameters[i];
+  return model::read_mechanism(diagnostics, read);
+}
+
+SettledStart start_at(const RunModel& model, const std::string& path) {
+  const loops::LoopPlan* const plan = model.loaded.plan();
+  if (!plan || model.parameters == model::default_values(model.loaded.mechanism)) return {};
+  model::Mechanism mechanism = model.loaded.mechanism;
+  for (std::size_t i = 0; i < mechanism.parameters.size(); ++i)
+    mechanism.parameters[i].value = model.parameters[i];
   support::Diagnostics diagnostics(path, support::read_file(path));
-  const std::optional<model::Mechanism> mechanism = model::read_mechanism(diagnostics, read);
+  std::optional<loops::Start> start = loops::planned_start(mechanism, *plan, diagnostics);
+  if (!diagnostics.all().empty()) {  // they may be about files that this one imports
+    read_at(model, diagnostics);
+    diagnostics.forget();
+    start = loops::planned_start(mechanism, *plan, diagnostics);
+  }
+  if (!start) return {{}, diagnostics.format(), false};
+  SettledStart settled{{start->configuration.y.begin(), start->configuration.y.end()},
+                       diagnostics.format() + loops::assembly_text(start->moved, "at these parameters ")};
+  const Eigen::VectorXd given = reference::Reference<double>(mechanism, model.parameters).initial_state().z;
+  const auto velocity = [&](std::size_t k) {
+    return static_cast<double>(k < std::size_t(start->z.size()) ? start->z[Eigen::Index(k)]
+                                                                : given[Eigen::Index(k)]);
+  };
+  for (std::size_t k = 0; !plan->is_reduced() && k < std::size_t(given.size()); ++k)
+    settled.x.push_back(velocity(k));
+  for (const std::size_t k : plan->independent) settled.x.push_back(velocity(k));
+  return settled;
+}
+
+}  // namespace
+
+bool is_sound_at(const RunModel& model, const std::string& path, const std::string& cause) {
+  support::Diagnostics diagnostics(path, support::read_file(path));
+  const std::optional<model::Mechanism> mechanism = read_at(model, diagnostics);
   if (mechanism && !diagnostics.has_errors()) check_inertia(*mechanism, diagnostics);
   if (mechanism && !diagnostics.has_errors()) check_start(*mechanism, diagnostics);
   if (mechanism && !diagnostics.has_errors()) return true;
@@ -151,6 +187,7 @@ std::optional<RunModel> read_run(const RunArguments& arguments, int& status) {
     }
   if (!arguments.settings.empty() && !is_sound_at(model, arguments.model.path, "--set leads to this"))
     return {};
+  model.start = start_at(model, arguments.model.path);
   for (const double input : arguments.constant_input) {
     if (!std::isfinite(input)) {
       fmt::print(stderr, "error: --constant-input has {}: numbers are expected\n", input);
@@ -174,30 +211,10 @@ std::vector<std::string> files_read(const RunArguments& arguments, const RunMode
   return paths;
 }
 
-std::vector<double> start_at_settings(const RunModel& model) {
-  model::Mechanism mechanism = model.loaded.mechanism;
-  const loops::LoopPlan* const plan = model.loaded.plan();
-  if (!plan || model.parameters == model::default_values(mechanism)) return {};
-  for (std::size_t i = 0; i < mechanism.parameters.size(); ++i)
-    mechanism.parameters[i].value = model.parameters[i];
-  support::Diagnostics diagnostics("--set", "");
-  const std::optional<loops::Start> start = loops::planned_start(mechanism, *plan, diagnostics);
-  if (!start) {  // what does not close is told where the run looks at its start
-    fmt::print(stderr,
-               "note: at these parameters the loops do not leave the start as it is given: it is that of the "
-               "default values, closed\n");
-    return {};
-  }
-  fmt::print(stderr, "{}", loops::assembly_text(start->moved, "at these parameters "));
-  std::vector<double> x(start->configuration.y.begin(), start->configuration.y.end());
-  const Eigen::VectorXd given = reference::Reference<double>(mechanism, model.parameters).initial_state().z;
-  const auto velocity = [&](std::size_t k) {
-    return static_cast<double>(k < std::size_t(start->z.size()) ? start->z[Eigen::Index(k)]
-                                                                : given[Eigen::Index(k)]);
-  };
-  for (std::size_t k = 0; !plan->is_reduced() && k < std::size_t(given.size()); ++k) x.push_back(velocity(k));
-  for (const std::size_t k : plan->independent) x.push_back(velocity(k));
-  return x;
+bool tell_start(const RunModel& model) {
+  fmt::print(stderr, "{}", model.start.told);
+  if (!model.start.found) fmt::print(stderr, "error: --set leads to this\n");
+  return model.start.found;
 }
 
 std::optional<RunInputs> read_inputs(const RunArguments& arguments, const RunModel& model,
@@ -219,16 +236,51 @@ std::optional<RunInputs> read_inputs(const RunArguments& arguments, const RunMod
     const bool any = std::any_of(values.begin(), values.end(), [](double u) { return u != 0; });
     run = RunInputs{std::make_unique<studies::ConstantInputs>(values), {}, any ? "constant inputs" : ""};
   }
-  if (run && run->start.empty()) run->start = start_at_settings(model);
+  if (run && run->start.empty()) {
+    status = kUsage;
+    if (!tell_start(model)) return {};
+    run->start = model.start.x;
+  }
   if (run) status = kSuccess;
   return run;
 }
 
+std::vector<std::size_t> left_open_rows(const LoadedMechanism& loaded) {
+  const loops::LoopPlan* const plan = loaded.plan();
+  if (!plan || plan->disagreeing.empty()) return {};
+  std::vector<std::size_t> rows = plan->disagreeing;
+  rows.insert(rows.end(), plan->sharing.begin(), plan->sharing.end());
+  return rows;
+}
+
+namespace {
+
+/// Whether closed forms and Newton's iterations find the positions that were settled; false after a message.
+bool starts_as_settled(const RunModel& model, const studies::Flow<double>& flow) {
+  constexpr double kSame = 1e-6;
+  const std::vector<double>& settled = model.start.x;
+  if (settled.empty() || flow.start_set() != settled) return true;
+  const std::vector<double> found = flow.start().x;
+  const std::vector<std::string> names = model::lay_out_coordinates(model.loaded.mechanism).position_names;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (std::fabs(found[i] - settled[i]) > kSame * std::max(1.0, std::fabs(settled[i]))) {
+      fmt::print(stderr,
+                 "error: at these values of its parameters '{}' starts with {} = {:g}, but its loops are "
+                 "closed another "
+                 "way there, with {:g}\n",
+                 model.loaded.mechanism.name, support::shown(names[i]), settled[i], found[i]);
+      return false;
+    }
+  return true;
+}
+
+}  // namespace
+
 bool check_closed(const RunModel& model, const studies::Flow<double>& flow) {
   constexpr double kOpen = 1e7;  // units of rounding
-  const studies::Residuals open = flow.residuals(flow.start());
+  const studies::Residuals open = flow.residuals_of_closed_rows(flow.start());
   const double allowed = kOpen * flow.table().unit_roundoff;
-  if (open.position <= allowed && open.velocity <= allowed) return true;
+  if (open.position <= allowed && open.velocity <= allowed) return starts_as_settled(model, flow);
   fmt::print(stderr, "error: the loops of '{}' do not close {}: they are open by {:.2g} (rate {:.2g}/s)\n",
              model.loaded.mechanism.name,
              model.parameters.empty() ? "at the start" : "at these values of its parameters", open.position,

@@ -24,10 +24,19 @@ struct RunArguments {
   void add_to(CLI::App& command);
 };
 
+/// y and z that a run starts from at the parameters' values, with closed loops. Empty where emitted code knows it:
+/// without loops, or at the default values.
+struct SettledStart {
+  std::vector<double> x;
+  std::string told;  ///< what moved; diagnostics where there is none
+  bool found = true;
+};
+
 /// A mechanism with the values of its parameters.
 struct RunModel {
   LoadedMechanism loaded;
   std::vector<double> parameters;  ///< in the mechanism's order
+  SettledStart start = {};
 };
 
 /// Reads the model and the settings. On a mistake of the user prints it and leaves the exit status in `status`.
@@ -40,9 +49,8 @@ std::vector<std::string> files_read(const RunArguments& arguments, const RunMode
 /// values.
 bool is_sound_at(const RunModel& model, const std::string& path, const std::string& cause);
 
-/// y and z that a run starts from at the parameters' values, with closed loops; what moved is printed. Empty where
-/// emitted code knows it: without loops, or at the default values.
-std::vector<double> start_at_settings(const RunModel& model);
+/// Prints what there is to tell of the start at the parameters' values; false where there is none.
+bool tell_start(const RunModel& model);
 
 /// Inputs of a run and the state that it starts from (empty: the description's).
 struct RunInputs {
@@ -56,6 +64,9 @@ struct RunInputs {
 std::optional<RunInputs> read_inputs(const RunArguments& arguments, const RunModel& model,
                                      const jourdain_model_table& table,
                                      const jourdain_model_table* long_table, int& status);
+
+/// Rows of constraints that do not agree with the others and stay open, and those that close by turns with them.
+std::vector<std::size_t> left_open_rows(const LoadedMechanism& loaded);
 
 /// Whether the loops close at the start; false after a message.
 bool check_closed(const RunModel& model, const studies::Flow<double>& flow);

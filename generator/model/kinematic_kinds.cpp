@@ -67,8 +67,11 @@ constexpr auto kRows = std::to_array<QuantityRow>({
      "tau_gravity: generalized forces that hold the mechanism against gravity alone, N m or N."},
     {KinematicQuantity::kInverseOperationalInertia, "inverse_operational_inertia", true, true, false, false,
      kInverseInertia,
-     "inverse_inertia: J M^-1 J^T of '{}', the inverse of the operational-space inertia where that has one: "
-     "force\nlinear before angular, as for J; acceleration per unit of force. Both triangles are filled."},
+     "inverse_inertia: J M^-1 J^T of '{}', the inverse of the operational-space inertia where that has one; "
+     "of\nloops "
+     "that multipliers hold with M^-1 of what they leave free. Force linear before angular, as for J; "
+     "acceleration\nper "
+     "unit of force. Both triangles are filled."},
 });
 static_assert(support::is_complete(kRows, &QuantityRow::quantity),
               "a row for each KinematicQuantity, in their order");

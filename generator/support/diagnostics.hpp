@@ -44,6 +44,8 @@ class Diagnostics {
   void warning(SourceRange where, std::string message, std::string hint = "");
   void note(SourceRange where, std::string message, std::string hint = "");
 
+  /// Drops what was found; texts stay.
+  void forget() { all_.clear(); }
   bool has_errors() const;
   const std::vector<Diagnostic>& all() const { return all_; }
   /// Of the first file.

@@ -53,7 +53,7 @@ typedef enum jourdain_status {
   JOURDAIN_OK = 0,
   JOURDAIN_WRONG_CALL = 1, /* a null pointer, or something that the model does not have; nothing was done */
   JOURDAIN_NOT_FINITE = 2, /* a number that was given or computed is not finite */
-  JOURDAIN_LOOPS_OPEN = 3  /* a step could not be trusted to close the loops of the mechanism */
+  JOURDAIN_LOOPS_OPEN = 3  /* it cannot be trusted that the loops of the mechanism are closed */
 } jourdain_status;
 
 typedef struct jourdain_variable {
@@ -127,7 +127,8 @@ typedef struct jourdain_interface {
    * than at first and close_loops or project is among the functions; else they may be open there. */
   jourdain_status (*reset)(void* instance);
   /* All values of a role, in order. Parameters that are set leave the state as it is; where they change how loops
-   * close, `reset`. */
+   * close, `reset`. Those at which loops are not proven to close, where that is proven for others, are not taken:
+   * JOURDAIN_LOOPS_OPEN. */
   jourdain_status (*get_parameters)(const void* instance, double* values);
   jourdain_status (*set_parameters)(void* instance, const double* values);
   jourdain_status (*get_inputs)(const void* instance, double* values);

@@ -33,7 +33,7 @@ AdaptiveRun follow(AdaptiveIntegrator& integrator, const CountedRates& rates,
     Point<double>& point = run.points.emplace_back(Point<double>{t, std::vector<double>(flow.size())});
     integrator.interpolate(t, point.x.data());
     if (!flow.has_loops()) continue;
-    const Residuals open = flow.residuals(point);
+    const Residuals open = flow.residuals_of_closed_rows(point);
     if (std::max(open.position, open.velocity) <= tolerance) continue;
     point = flow.closed(point);
     integrator.restart(point);

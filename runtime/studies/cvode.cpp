@@ -144,7 +144,7 @@ std::optional<std::vector<Point<double>>> solved_by_cvode(const Flow<double>& fl
     solver.stop_at(t);
     if (!solver.advance(t, CV_NORMAL)) return {};
     points.push_back({t, solver.state()});
-    const Residuals open = flow.residuals(points.back());
+    const Residuals open = flow.residuals_of_closed_rows(points.back());
     if (std::max(open.position, open.velocity) <= tolerance) continue;
     points.back() = flow.closed(points.back());
     solver.restart(points.back());

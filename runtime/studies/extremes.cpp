@@ -157,7 +157,7 @@ bool close(const Flow<double>& flow, double t, std::vector<double>& x) {
   constexpr double kOpen = 1e7;  // units of rounding
   const Point<double> point = flow.closed({t, x});
   x = point.x;
-  return flow.residuals(point).position <= kOpen * flow.table().unit_roundoff;
+  return flow.residuals_of_closed_rows(point).position <= kOpen * flow.table().unit_roundoff;
 }
 
 }  // namespace

@@ -185,14 +185,26 @@ bool Flow<Real>::is_trusted() const {
 
 template <class Real>
 Residuals Flow<Real>::residuals(const Point<Real>& point) const {
+  return residuals_but(point, {});
+}
+
+template <class Real>
+Residuals Flow<Real>::residuals_of_closed_rows(const Point<Real>& point) const {
+  return residuals_but(point, left_open_);
+}
+
+template <class Real>
+Residuals Flow<Real>::residuals_but(const Point<Real>& point, const std::vector<std::size_t>& rows) const {
   if (!has_loops()) return {};
   const std::vector<double> time = to_parts<Real>(std::span(&point.t, 1)), state = to_parts<Real>(point.x);
   std::vector<double> g(static_cast<std::size_t>(table_.constraint_count) * kParts<Real>), rate = g;
   table_.constraint_residual(time.data(), state.data(), state.data() + position_count() * kParts<Real>,
                              g.data(), rate.data());
-  const auto largest = [](const std::vector<double>& parts) {
+  const auto largest = [&rows](const std::vector<double>& parts) {
     double result = 0;
-    for (const Real& entry : from_parts<Real>(parts)) {
+    std::vector<Real> entries = from_parts<Real>(parts);
+    for (const std::size_t row : rows) entries[row] = Real(0.0);
+    for (const Real& entry : entries) {
       const double size = std::fabs(static_cast<double>(entry));
       if (!(size <= result)) result = std::isnan(size) ? INFINITY : size;
     }

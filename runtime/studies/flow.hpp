@@ -63,6 +63,8 @@ class Flow {
   /// from there.
   Point<Real> start() const;
   void set_start(const std::vector<double>& x) { start_ = x; }
+  /// What was set; empty: nothing.
+  const std::vector<double>& start_set() const { return start_; }
   /// From now on steps get inputs as numbers, those of their begin, and hold them.
   void hold_inputs() { held_ = true; }
   /// f(t, x).
@@ -89,10 +91,17 @@ class Flow {
   bool is_trusted() const;
   /// Largest |g| and |dg/dt| over all rows; zero where there are no loops.
   Residuals residuals(const Point<Real>& point) const;
+  /// Rows that do not agree with the others, by rounded numbers: closing leaves them open.
+  void leave_open(std::vector<std::size_t> rows) { left_open_ = std::move(rows); }
+  /// Largest |g| and |dg/dt| over the others.
+  Residuals residuals_of_closed_rows(const Point<Real>& point) const;
 
  private:
+  Residuals residuals_but(const Point<Real>& point, const std::vector<std::size_t>& rows) const;
+
   const jourdain_model_table& table_;
   const Inputs& inputs_;
+  std::vector<std::size_t> left_open_;
   std::vector<double> start_;  ///< empty: the description's
   bool held_ = false;
 };

@@ -595,5 +595,27 @@ TEST(Interface, ParametersAreTunable) {
   EXPECT_NEAR(zdot[0], 9.81, 1e-14);
 }
 
+/// How the loops close beyond the range for which that is proven is not known.
+TEST(Interface, ParametersAtWhichLoopsAreNotProvenToCloseAreNotTaken) {
+  for (const bool is_float : {false, true}) {
+    const Loaded loaded("double_wishbone", is_float);
+    ASSERT_TRUE(loaded.table);
+    const jourdain_interface& table = *loaded.table;
+    Instance one(table);
+    const Values usual = values_of(table, one.self);
+    ASSERT_NEAR(usual.p[0], 0.04, 1e-8);  // steering
+    for (const double steering : {0.05 + 1e-6, -1e-6}) {
+      Values values = usual;
+      values.p[0] = steering;
+      EXPECT_EQ(table.set_parameters(one.self, values.p.data()), JOURDAIN_LOOPS_OPEN);
+      EXPECT_EQ(values_of(table, one.self).p, usual.p);
+    }
+    Values within = usual;
+    within.p[0] = 0.03;
+    EXPECT_EQ(table.set_parameters(one.self, within.p.data()), JOURDAIN_OK);
+    EXPECT_NEAR(values_of(table, one.self).p[0], 0.03, 1e-8);
+  }
+}
+
 }  // namespace
 }  // namespace jourdain::tests

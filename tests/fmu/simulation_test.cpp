@@ -188,6 +188,24 @@ TEST(ModelExchange, ProjectsLoopsWithMultipliersBeyondTheDrift) {
   EXPECT_FALSE(needs_event);
 }
 
+/// How the loops close at other values is not known: the proof holds at those of the description.
+TEST(CoSimulation, RefusesParametersAtWhichLoopsAreNotProvenToClose) {
+  for (const int version : {2, 3}) {
+    const Fmu fmu(make_fmu("../tests/loops/scenes/chassis_corner", version, "--step 0.001"));
+    Instance instance(fmu, false);
+    EXPECT_EQ(instance.set("stiffness", 40e3), kOk);
+    EXPECT_EQ(instance.set("steering", 0.041), kError);
+    EXPECT_NE(instance.log().back().find("the loops are not proven to close at these parameters"),
+              std::string::npos)
+        << instance.log().back();
+    EXPECT_EQ(instance.value("steering"), 0.04);
+    instance.start();
+    EXPECT_EQ(instance.set("rate", 3.5), kError);
+    EXPECT_EQ(instance.set("rate", 3), kOk);
+    EXPECT_EQ(instance.step(0, 0.001), kOk);
+  }
+}
+
 /// A communication step that is no multiple of the internal one takes equal steps, as few as are not longer.
 TEST(CoSimulation, DividesOtherCommunicationStepsEvenly) {
   const Fmu coarse(make_fmu("cart_pole", 3, "--step 0.001")),

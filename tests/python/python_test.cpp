@@ -106,8 +106,9 @@ TEST(Python, ModulesDoWhatTheyPromise) {
   EXPECT_THAT(result.output, testing::ContainsRegex("Ran 2[0-9] tests"));
 }
 
-/// A bar of the four-bar becomes a parameter; in closed form the crank stays where it is. Nor does a state that was
-/// changed by more than any step changes it stay open.
+/// Bars of the four-bar become parameters; in closed form the crank stays where it is. Nor does a state that was
+/// changed by more than any step changes it stay open. What has no range keeps the value at which loops are proven to
+/// close.
 TEST(Python, LoopsCloseAtOtherParametersAndStates) {
   for (const char* treatment : {"explicit", "multipliers"}) {
     const support::TemporaryFolder folder;
@@ -117,7 +118,9 @@ TEST(Python, LoopsCloseAtOtherParametersAndStates) {
       ASSERT_NE(at, std::string::npos) << from;
       model.replace(at, from.size(), to);
     };
-    replace("[parameters]\n", "[parameters]\nbar = { value = 0.24, range = [0.23, 0.26] }\n");
+    replace("[parameters]\n",
+            "[parameters]\nbar = { value = 0.24, range = [0.23, 0.26] }\nbase = { value = 0.4 }\n");
+    replace("position = [0.4, 0, 0]", "position = [\"base\", 0, 0]");
     replace("position = [0.24, 0, 0]", "position = [\"bar\", 0, 0]");
     if (std::string(treatment) == "multipliers")
       replace("treatment = \"explicit\"\nindependent = [\"crank\"]", "treatment = \"multipliers\"");
@@ -150,6 +153,11 @@ for bar in (0.24, 0.25, 0.258):
         assert False
     except four_bar.NotFinite:
         pass
+try:
+    assert np.abs(four_bar.Model(base=0.41).initial_state().y - four_bar.Model().initial_state().y).max() > 1e-3
+    assert not explicit
+except four_bar.LoopsOpen as problem:
+    assert explicit and "not proven to close at these parameters" in str(problem), problem
 )py"},
                                             folder.path());
     EXPECT_EQ(result.status, 0) << treatment << result.output;

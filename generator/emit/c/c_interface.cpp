@@ -155,15 +155,26 @@ class Interface {
 
   // values of roles
 
+  /// Parameters for which loops are not proven to close are refused.
   std::string parameter_values() const {
-    std::string get, set;
+    std::string get, set, kept;
     for (std::size_t k = 0; k < scene_.parameters.size(); ++k) {
       get += fmt::format("  values[{}] = (double)self->parameters.{};\n", k, scene_.parameters[k].name);
       set += fmt::format("  self->parameters.{} = ({})values[{}];\n", scene_.parameters[k].name,
                          names_.real(), k);
     }
+    if (!model_.proven.parameters.empty()) {
+      kept = fmt::format("  {} kept;\n", global("parameters"));
+      set = "  kept = self->parameters;\n" + set +
+            fmt::format(
+                "  if (!{}(&self->parameters)) {{\n    self->parameters = kept;\n    return "
+                "JOURDAIN_LOOPS_OPEN;\n"
+                "  }}\n",
+                global("loops_proven"));
+    }
     return accessors("parameters", scene_.parameters.size(), get,
-                     set + fmt::format("  {}(&self->model, &self->parameters);\n", global("set_model")));
+                     set + fmt::format("  {}(&self->model, &self->parameters);\n", global("set_model")),
+                     kept);
   }
 
   std::string input_values() const {
@@ -173,10 +184,11 @@ class Interface {
   }
 
   std::string accessors(const std::string& role, std::size_t count, const std::string& get,
-                        const std::string& set) const {
+                        const std::string& set, const std::string& kept = "") const {
     if (count == 0) return passage("no_values", {{"ROLE", role}});
-    return passage("values",
-                   {{"ROLE", role}, {"COUNT", fmt::format("{}", count)}, {"GET", get}, {"SET", set}});
+    return passage(
+        "values",
+        {{"ROLE", role}, {"COUNT", fmt::format("{}", count)}, {"GET", get}, {"SET", set}, {"KEPT", kept}});
   }
 
   std::string state_functions() const {

@@ -67,7 +67,7 @@ std::string why_not_partitioned(const model::Mechanism& mechanism, const Constra
   start.y = Eigen::Map<const Eigen::VectorXd>(plan.y.data(), static_cast<Eigen::Index>(plan.y.size()))
                 .cast<long double>();
   start = closure.assembled(start, moving);
-  if (!(closure.open(start) <= kClosed)) return "the loops cannot be closed at the start";
+  if (!closure.closes(start)) return "the loops cannot be closed at the start";
   RegularityRequest request = regularity_request(mechanism, constraints, plan);
   for (std::size_t i = 0; i < request.initial_y.size(); ++i)
     request.initial_y[i] = static_cast<double>(start.y[static_cast<Eigen::Index>(i)]);

@@ -208,6 +208,13 @@ std::optional<Partition> given_partition(const std::vector<Matrix>& jacobians,
   return partition;
 }
 
+bool is_dead(const Matrix& G, const std::vector<Block>& blocks) {
+  return std::any_of(blocks.begin(), blocks.end(), [&](const Block& block) {
+    const Vector sigma = reference::singular_values<long double>(G(block.rows, block.dependents));
+    return !(sigma.minCoeff() > kRankTolerance * sigma.maxCoeff());
+  });
+}
+
 namespace {
 
 /// Does the choice take all velocities of a group or none?

@@ -32,6 +32,9 @@ std::optional<Partition> given_partition(const std::vector<Matrix>& jacobians,
                                          const std::vector<Matrix>& structure,
                                          const std::vector<std::size_t>& independent);
 
+/// Whether the dependent velocities do not follow from the others where G is that, but for rounding.
+bool is_dead(const Matrix& G, const std::vector<Block>& blocks);
+
 /// These rows of G at configurations that are open, with parameters off their default values.
 std::vector<Matrix> open_rows(const model::Mechanism& mechanism, const ConstraintPrograms& constraints,
                               const std::vector<Configuration>& configurations,

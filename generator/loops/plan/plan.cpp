@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "loops/closed_form/position_request.hpp"
+#include "loops/plan/bend_check.hpp"
 #include "loops/plan/constraint_domain.hpp"
 #include "loops/plan/elimination_order.hpp"
 #include "loops/plan/inertia.hpp"
@@ -36,7 +37,7 @@ namespace {
 using support::at;
 
 /// Configurations at which rows, freedom and conditioning are judged.
-constexpr std::size_t kConfigurations = 48;
+constexpr std::size_t kConfigurationsSeen = 48;
 
 class Planner {
  public:
@@ -54,12 +55,13 @@ class Planner {
     plan_.stabilisation = mechanism_.loop_options.stabilisation;
     plan_.is_named = mechanism_.loop_options.treatment || !mechanism_.loop_options.independent.empty();
     if (!check_linear(mechanism_, constraints_, diagnostics_) || !assemble()) return {};
-    configurations_ = walk(closure_, start_, mechanism_, kConfigurations);
+    configurations_ = walk(closure_, start_, mechanism_, kConfigurationsSeen);
     for (const Configuration& c : configurations_) jacobians_.push_back(closure_.jacobian(c));
     if (!check_acting()) return {};
-    plan_.rows = plan_.disagreeing.empty() ? kept_rows(closure_, configurations_, jacobians_)
-                                           : all_but(plan_.disagreeing);
+    plan_.rows =
+        plan_.disagreeing.empty() ? kept_rows(closure_, configurations_) : all_but(plan_.disagreeing);
     for (const std::size_t r : all_but(plan_.rows)) plan_.redundant.push_back(names_[r]);
+    if (!check_bend(mechanism_, closure_, start_, start_z_, plan_.rows, diagnostics_)) return {};
     if (!check_later(mechanism_, closure_, start_, plan_, diagnostics_)) return {};
     plan_.freedom = layout_.velocity_count() - std::min(layout_.velocity_count(), plan_.rows.size());
     if (!check_moved_inertia(mechanism_, configurations_, jacobians_, diagnostics_)) return {};
@@ -78,12 +80,7 @@ class Planner {
   }
 
  private:
-  std::vector<std::size_t> named_independent() const {
-    std::vector<std::size_t> list;
-    for (const auto& name : mechanism_.loop_options.independent)
-      list.push_back(*layout_.joints[name.joint.value].velocity[name.coordinate]);
-    return list;
-  }
+  std::vector<std::size_t> named_independent() const { return loops::named_independent(mechanism_); }
 
   std::vector<std::size_t> all_but(const std::vector<std::size_t>& rows) const {
     return loops::all_but(rows, names_.size());
@@ -91,13 +88,14 @@ class Planner {
 
   bool assemble() {
     const Disagreement found =
-        settle_disagreement(mechanism_, closure_, named_independent(), kConfigurations, diagnostics_);
+        settle_disagreement(mechanism_, closure_, named_independent(), kConfigurationsSeen, diagnostics_);
     plan_.disagreeing = found.rows;
     plan_.disagreement = found.amount;
     plan_.length_unit = static_cast<double>(closure_.units().length);
     const std::optional<Start> start = find_start(mechanism_, closure_, named_independent(), diagnostics_);
     if (!start) return false;
     start_ = start->configuration;
+    start_z_ = start->z;
     take_start(*start, plan_);
     return true;
   }
@@ -136,7 +134,13 @@ class Planner {
     take(*partition);
     if (options.treatment != LoopTreatment::kPartitioned && close_explicitly()) return true;
     if (options.treatment == LoopTreatment::kExplicit) return refuse_explicit();
-    if (const std::string why = prove(); !why.empty()) warn_unproven("coordinates follow from time", why);
+    if (const std::string why = prove(); why.empty())
+      return true;
+    else if (!is_dead(closure_.in_units(jacobians_.front()), plan_.blocks))
+      return warn_unproven("coordinates follow from time", why);
+    if (plan_.is_named) return refuse_dead();
+    plan_.reason = "the initial state is a dead position";
+    keep_all();
     return true;
   }
 
@@ -180,8 +184,7 @@ class Planner {
       if (why.empty()) why = failure;
     }
     take(choices.front());
-    go_without_proof(why);
-    return true;
+    return go_without_proof(why);
   }
 
   /// Multipliers meet constraints of velocities, all coordinates are kept; where the description asks for it velocities
@@ -200,8 +203,7 @@ class Planner {
       if (close_explicitly()) return true;
       why = explicit_failure_;
     }
-    diagnostics_.error(options.where, "velocities are not proven to follow from independent ones", why);
-    return false;
+    return refuse("velocities are not proven to follow from independent ones", why);
   }
 
   std::optional<Partition> partition_of_velocities() const {
@@ -228,22 +230,10 @@ class Planner {
                               preferred_velocities(mechanism_, jacobians_));
     if (!best) return {};
     std::vector<Partition> list = {*best};
-    const std::vector<std::size_t> ranged = with_range();
+    const std::vector<std::size_t> ranged = ranged_velocities(mechanism_);
     if (!named.empty() || ranged.size() != plan_.freedom || ranged == best->independent) return list;
     if (const auto other = given_partition(regular, open, ranged); other && other->conditioning > 0)
       list.push_back(*other);
-    return list;
-  }
-
-  /// Velocities of the coordinates with a range, in order.
-  std::vector<std::size_t> with_range() const {
-    std::vector<std::size_t> list;
-    for (std::size_t j = 0; j < mechanism_.joints.size(); ++j)
-      for (std::size_t c = 0; c < mechanism_.joints[j].coordinates.size(); ++c)
-        if (const auto entry = layout_.joints[j].velocity[c];
-            entry && mechanism_.joints[j].coordinates[c].range)
-          list.push_back(*entry);
-    std::sort(list.begin(), list.end());
     return list;
   }
 
@@ -270,22 +260,30 @@ class Planner {
 
   /// A choice that is not proven is taken only where it is asked for, or where multipliers would need M⁻¹ of a
   /// singular M.
-  void go_without_proof(const std::string& why) {
+  bool go_without_proof(const std::string& why) {
+    if (plan_.is_named && is_dead(closure_.in_units(jacobians_.front()), plan_.blocks)) return refuse_dead();
     if (plan_.is_named || !massless_.empty())
       return warn_unproven("the other coordinates follow from the independent ones", why);
     if (!plan_.reason.empty()) plan_.reason += "; ";
     plan_.reason += "no choice of independent coordinates proven: " + why;
     keep_all();
+    return true;
   }
 
-  void warn_unproven(const char* what, const std::string& why) {
+  bool refuse_dead() {
+    return refuse("the initial state is a dead position: dependent velocities do not follow there",
+                  "start elsewhere, name other independent coordinates, or use treatment = \"multipliers\"");
+  }
+
+  bool warn_unproven(const char* what, const std::string& why) {
     diagnostics_.warning(mechanism_.loop_options.where,
                          fmt::format("it is not proven that {}: {}", what, why),
                          "watch 'regularity' of State, declare ranges, or use treatment = \"multipliers\"");
+    return true;
   }
 
   bool share() {
-    plan_.sharing = sharing_rows(jacobians_, plan_.rows);
+    plan_.sharing = sharing_rows(closure_.in_units(jacobians_), plan_.rows);
     return set_scales_of_multipliers(mechanism_, configurations_, jacobians_, plan_, diagnostics_);
   }
 
@@ -310,9 +308,10 @@ class Planner {
     return false;
   }
 
-  bool refuse_explicit() {
-    diagnostics_.error(mechanism_.loop_options.where, "the loops cannot be closed explicitly",
-                       explicit_failure_);
+  bool refuse_explicit() { return refuse("the loops cannot be closed explicitly", explicit_failure_); }
+
+  bool refuse(const char* what, const std::string& why) {
+    diagnostics_.error(mechanism_.loop_options.where, what, why);
     return false;
   }
 
@@ -369,6 +368,7 @@ class Planner {
   NumericClosure closure_;
   std::vector<std::string> names_;
   Configuration start_;
+  Vector start_z_;
   std::vector<Configuration> configurations_;  ///< closed ones; the first is the start
   std::vector<Matrix> jacobians_;              ///< there
   std::vector<model::JointIndex> massless_;    ///< where the tree's mass matrix is singular

@@ -1,5 +1,7 @@
 #include "loops/plan/planned_start.hpp"
 
+#include "loops/plan/bend_check.hpp"
+#include "loops/plan/preferred.hpp"
 #include "loops/plan/states.hpp"
 #include "loops/rows/configuration.hpp"
 #include "loops/rows/constraints.hpp"
@@ -12,10 +14,9 @@ std::optional<Start> planned_start(const model::Mechanism& mechanism, const Loop
   const ConstraintPrograms programs = closure_programs(held);
   NumericClosure closure(held, programs, model::default_values(held));
   closure.disregard(plan.disagreeing, plan.tolerated_disagreement());
-  std::vector<std::size_t> independent;
-  for (const std::size_t k : plan.independent)
-    if (k < closure.velocity_count()) independent.push_back(k);  // not of states
-  return find_start(held, closure, independent, diagnostics, plan.starts_beside ? &plan.y : nullptr);
+  std::optional<Start> start = find_start_again(held, closure, named_independent(held), plan, diagnostics);
+  if (!start || !check_bend(held, closure, start->configuration, start->z, plan.rows, diagnostics)) return {};
+  return start;
 }
 
 }  // namespace jourdain::loops

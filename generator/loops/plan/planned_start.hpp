@@ -9,8 +9,8 @@
 
 namespace jourdain::loops {
 
-/// Where the mechanism starts at the values that its parameters have now, states left out, with the independent
-/// coordinates of `plan`; from beside a dead point, from where the plan starts. Nothing after diagnostics.
+/// Where the mechanism starts at the values that its parameters have now, states left out: find_start_again, with
+/// velocities that some motion has. Nothing after diagnostics.
 std::optional<Start> planned_start(const model::Mechanism& mechanism, const LoopPlan& plan,
                                    support::Diagnostics& diagnostics);
 

@@ -59,4 +59,23 @@ std::vector<std::size_t> following_velocities(const model::Mechanism& mechanism)
   return list;
 }
 
+std::vector<std::size_t> named_independent(const model::Mechanism& mechanism) {
+  const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
+  std::vector<std::size_t> list;
+  for (const auto& name : mechanism.loop_options.independent)
+    list.push_back(*layout.joints[name.joint.value].velocity[name.coordinate]);
+  return list;
+}
+
+std::vector<std::size_t> ranged_velocities(const model::Mechanism& mechanism) {
+  const model::CoordinateLayout layout = model::lay_out_coordinates(mechanism);
+  std::vector<std::size_t> list;
+  for (std::size_t j = 0; j < mechanism.joints.size(); ++j)
+    for (std::size_t c = 0; c < mechanism.joints[j].coordinates.size(); ++c)
+      if (const auto entry = layout.joints[j].velocity[c]; entry && mechanism.joints[j].coordinates[c].range)
+        list.push_back(*entry);
+  std::sort(list.begin(), list.end());
+  return list;
+}
+
 }  // namespace jourdain::loops

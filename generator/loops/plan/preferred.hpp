@@ -17,4 +17,10 @@ std::vector<bool> preferred_velocities(const model::Mechanism& mechanism,
 /// Velocities of coordinates that are left to follow another one.
 std::vector<std::size_t> following_velocities(const model::Mechanism& mechanism);
 
+/// Velocities of the coordinates that the description names as independent.
+std::vector<std::size_t> named_independent(const model::Mechanism& mechanism);
+
+/// Velocities of the coordinates with a range, in order.
+std::vector<std::size_t> ranged_velocities(const model::Mechanism& mechanism);
+
 }  // namespace jourdain::loops

@@ -69,7 +69,7 @@ bool check_later(const model::Mechanism& mechanism, NumericClosure closure, cons
         row = r;
       }
   }
-  if (worst <= std::max(kRounded, 10 * plan.disagreement)) return true;
+  if (worst <= std::max(kRounded * std::min(1.0, plan.length_unit), 10 * plan.disagreement)) return true;
   const model::Loop& loop = model::loop_of_row(mechanism, row);
   if (worst <= allowed) {
     diagnostics.warning(

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "loops/plan/given_values.hpp"
 #include "loops/record/loop_plan.hpp"
 #include "model/coordinates.hpp"
-#include "model/joint_kinds.hpp"
 #include "model/loop_kinds.hpp"
 #include "reference/minimal.hpp"
 #include "support/matrix_index.hpp"
@@ -17,7 +17,6 @@
 namespace jourdain::loops {
 
 using support::shown;
-using support::SourceRange;
 
 namespace {
 
@@ -28,45 +27,16 @@ constexpr long double kRounded = 1e-6L;
 /// ġ below this share of the largest velocity counts as zero.
 constexpr long double kAgrees = 1e-10L;
 
-/// Where the description gives initial values, by velocity of the tree; line 0 where it does not.
-struct GivenValues {
-  std::vector<SourceRange> position, velocity;
-};
-
-GivenValues given_values(const model::Mechanism& mechanism, const model::CoordinateLayout& layout) {
-  GivenValues given;
-  given.position.resize(layout.velocity_count());
-  given.velocity.resize(layout.velocity_count());
-  const auto three = [&](std::size_t first, SourceRange position, SourceRange velocity) {
-    std::fill_n(given.position.begin() + static_cast<std::ptrdiff_t>(first), 3, position);
-    std::fill_n(given.velocity.begin() + static_cast<std::ptrdiff_t>(first), 3, velocity);
-  };
-  for (std::size_t j = 0; j < mechanism.joints.size(); ++j) {
-    const model::Joint& joint = mechanism.joints[j];
-    const model::JointEntries& entries = layout.joints[j];
-    for (std::size_t c = 0; c < joint.coordinates.size(); ++c) {
-      if (!entries.velocity[c]) continue;
-      given.position[*entries.velocity[c]] = joint.coordinates[c].position_where;
-      given.velocity[*entries.velocity[c]] = joint.coordinates[c].velocity_where;
-    }
-    const model::JointKind& kind = model::joint_kind(joint);
-    if (kind.has_origin()) three(entries.first_velocity, joint.origin_where, joint.origin_velocity_where);
-    if (kind.has_quaternion())
-      three(entries.first_velocity + (kind.has_origin() ? 3 : 0), joint.orientation_where, joint.spin_where);
-  }
-  return given;
-}
-
 using Entries = std::vector<std::size_t>;
 
 class StartSearch {
  public:
   StartSearch(const model::Mechanism& mechanism, const NumericClosure& closure, const Entries& independent,
-              const std::vector<double>* near, support::Diagnostics& diagnostics)
+              const LoopPlan* plan, support::Diagnostics& diagnostics)
       : mechanism_(mechanism),
         closure_(closure),
         independent_(independent),
-        near_(near),
+        plan_(plan),
         diagnostics_(diagnostics),
         layout_(model::lay_out_coordinates(mechanism)),
         given_(given_values(mechanism, layout_)),
@@ -88,31 +58,72 @@ class StartSearch {
     return list;
   }
 
-  bool is_closed(const Configuration& config) const { return closure_.open(config) <= kClosed; }
+  bool is_closed(const Configuration& config) const { return closure_.closes(config); }
 
   bool is_start(const Configuration& config) const {
     return is_closed(config) && closure_.reversed(config).empty() && in_range(config, mechanism_, layout_);
   }
 
-  bool find_positions() {
+  /// Entries whose positions the description gives, all or those that follow parameters.
+  Entries given_positions(bool following) const {
     Entries given;
     for (std::size_t k = 0; k < given_.position.size(); ++k)
-      if (given_.position[k].line > 0) given.push_back(k);
-    Configuration initial{0, initial_.y};
-    if (near_) std::copy(near_->begin(), near_->end(), initial.y.begin());
-    const Configuration kept = closure_.assembled(initial, all_but(independent_, given));
-    start_.configuration = kept;
-    if (is_start(kept)) return true;
-    start_.configuration = closure_.assembled(kept, all_but(independent_, {}));
-    if (is_start(start_.configuration)) return true;
-    start_.configuration = closure_.assembled(initial, all_but(independent_, {}));
-    if (is_start(start_.configuration)) return true;
+      if (given_.position[k].is_given() && (given_.position[k].follows || !following)) given.push_back(k);
+    return given;
+  }
+
+  Configuration planned() const {
+    return {0, Eigen::Map<const Eigen::VectorXd>(plan_->y.data(), at(plan_->y.size())).cast<long double>()};
+  }
+
+  /// From where the plan starts to the initial positions of `held`, bit by bit.
+  Configuration carried(const Entries& held) const {
+    constexpr int kSteps = 16;
+    const Configuration first = planned();
+    Configuration now = first;
+    const auto is_held = [&](std::size_t k) { return std::find(held.begin(), held.end(), k) != held.end(); };
+    for (int i = 1; i <= kSteps; ++i) {
+      const long double share = i / (1.0L * kSteps);
+      for (const model::Tangent::Scalar& s : layout_.tangent.scalars)
+        if (is_held(s.velocity))
+          now.y[at(s.position)] = std::lerp(first.y[at(s.position)], initial_.y[at(s.position)], share);
+      for (const model::Tangent::Scalar& s : layout_.tangent.quaternions) {
+        if (!is_held(s.velocity)) continue;
+        const Eigen::Vector4<long double> from = first.y.segment<4>(at(s.position)),
+                                          to = initial_.y.segment<4>(at(s.position));
+        const long double sign = i < kSteps && from.dot(to) < 0 ? -1 : 1;
+        now.y.segment<4>(at(s.position)) =
+            i < kSteps ? ((1 - share) * from + sign * share * to).normalized() : to;
+      }
+      now = closure_.assembled(now, all_but(independent_, held));
+    }
+    return now;
+  }
+
+  bool take_where_it_starts(const Configuration& config) {
+    start_.configuration = config;
+    return is_start(config);
+  }
+
+  bool find_positions() {
+    const Entries given = given_positions(false);
+    if (plan_ &&
+        (take_where_it_starts(carried(given)) || take_where_it_starts(carried(given_positions(true)))))
+      return true;
+    const Configuration initial{0, initial_.y},
+        kept = closure_.assembled(initial, all_but(independent_, given));
+    if (take_where_it_starts(kept)) return true;
+    const bool moves_given = !given.empty() && !is_closed(kept);
+    if (moves_given && find_beside(initial, given, given)) return true;
+    if (take_where_it_starts(closure_.assembled(kept, all_but(independent_, {}))) ||
+        take_where_it_starts(closure_.assembled(initial, all_but(independent_, {}))))
+      return true;
     if (is_closed(kept) && closure_.reversed(kept).empty()) start_.configuration = kept;
     const Configuration nearest = start_.configuration;
     if (is_closed(nearest) && !report_reversed()) return false;
     if (is_closed(initial)) return true;  // as given, wherever its ranges are
-    if (!near_ && (find_beside(initial, given, given) || (!given.empty() && find_beside(initial, given, {}))))
-      return true;
+    if (!moves_given && find_beside(initial, given, given)) return true;
+    if (!given.empty() && find_beside(initial, given, {})) return true;
     if (!is_closed(nearest)) return report_open();
     warn_of_range(nearest);
     return true;
@@ -219,13 +230,25 @@ class StartSearch {
     if (!agrees(start_.z)) return report_opening();
     Entries all, moving;
     for (std::size_t k = 0; k < given_.velocity.size(); ++k) {
-      if (given_.velocity[k].line == 0) continue;
+      if (!given_.velocity[k].is_given()) continue;
       all.push_back(k);
       if (initial_.z[at(k)] != 0) moving.push_back(k);
     }
     if (keeps_given(all, moving)) return true;
-    std::erase_if(held_, [&](std::size_t k) { return given_.velocity[k].line == 0; });
-    return keeps_given(all, moving) || report_conflict(moving);
+    std::erase_if(held_, [&](std::size_t k) { return !given_.velocity[k].is_given(); });
+    if (keeps_given(all, moving)) return true;
+    return plan_ ? keep_what_agrees(all) : report_conflict(moving);
+  }
+
+  /// Those that follow parameters first, zeros last.
+  bool keep_what_agrees(Entries all) {
+    const auto rank = [&](std::size_t k) {
+      return std::pair(initial_.z[at(k)] == 0, !given_.velocity[k].follows);
+    };
+    std::stable_sort(all.begin(), all.end(), [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
+    Entries held;
+    for (const std::size_t k : all) add_where_it_agrees(held, k);
+    return keeps(held);
   }
 
   bool keeps_given(const Entries& all, Entries moving) {
@@ -271,7 +294,7 @@ class StartSearch {
   /// The first velocity in the file that does not agree with those before it.
   bool report_conflict(Entries given) {
     const auto place = [&](std::size_t k) {
-      return std::pair(given_.velocity[k].line, given_.velocity[k].column);
+      return std::pair(given_.velocity[k].where.line, given_.velocity[k].where.column);
     };
     std::stable_sort(given.begin(), given.end(),
                      [&](std::size_t a, std::size_t b) { return place(a) < place(b); });
@@ -294,7 +317,7 @@ class StartSearch {
     const double possible = rests ? 0 : static_cast<double>(z[at(entry)]);
     Entries with = held_;
     for (const std::size_t k : needed(entry, held)) with.push_back(k);
-    diagnostics_.error(given_.velocity[entry],
+    diagnostics_.error(given_.velocity[entry].where,
                        fmt::format("'{}' cannot start with {:.10g}", shown(layout_.velocity_names[entry]),
                                    static_cast<double>(initial_.z[at(entry)])),
                        fmt::format("{}the loops leave it {:.10g}: write that, or leave one velocity out",
@@ -341,8 +364,8 @@ class StartSearch {
   const model::Mechanism& mechanism_;
   const NumericClosure& closure_;
   const Entries& independent_;
-  const std::vector<double>* near_;  ///< positions to begin from; null: the initial ones
-  Entries held_;                     ///< independent velocities that stay
+  const LoopPlan* plan_;  ///< at other values of the parameters; null: this is the first start
+  Entries held_;          ///< independent velocities that stay
   support::Diagnostics& diagnostics_;
   model::CoordinateLayout layout_;
   GivenValues given_;
@@ -354,8 +377,14 @@ class StartSearch {
 
 std::optional<Start> find_start(const model::Mechanism& mechanism, const NumericClosure& closure,
                                 const std::vector<std::size_t>& independent,
-                                support::Diagnostics& diagnostics, const std::vector<double>* near) {
-  return StartSearch(mechanism, closure, independent, near, diagnostics).find();
+                                support::Diagnostics& diagnostics) {
+  return StartSearch(mechanism, closure, independent, nullptr, diagnostics).find();
+}
+
+std::optional<Start> find_start_again(const model::Mechanism& mechanism, const NumericClosure& closure,
+                                      const std::vector<std::size_t>& independent, const LoopPlan& plan,
+                                      support::Diagnostics& diagnostics) {
+  return StartSearch(mechanism, closure, independent, &plan, diagnostics).find();
 }
 
 void take_start(const Start& start, LoopPlan& plan) {

@@ -29,11 +29,17 @@ struct Start {
 /// positions beside, after a warning. Velocities that it gives stay, to the bit, where they agree with the loops;
 /// given zeros yield to other given ones, and ones that agree to 1e-6 of the largest count as rounded and move to
 /// the nearest that agree. Nothing after diagnostics: loops that stay open or close with axes against each other,
-/// given velocities that conflict. From positions `near` a start where they are given: the one that other values of
-/// the parameters have, so that the way of closing stays.
+/// given velocities that conflict.
 std::optional<Start> find_start(const model::Mechanism& mechanism, const NumericClosure& closure,
                                 const std::vector<std::size_t>& independent,
-                                support::Diagnostics& diagnostics, const std::vector<double>* near = nullptr);
+                                support::Diagnostics& diagnostics);
+
+/// The same at other values of the parameters than those at which `plan` starts: given numbers yield to initial values
+/// that follow parameters, and these to closing. The way of closing is that of the plan where the way from its start to
+/// the given positions is closed.
+std::optional<Start> find_start_again(const model::Mechanism& mechanism, const NumericClosure& closure,
+                                      const std::vector<std::size_t>& independent, const LoopPlan& plan,
+                                      support::Diagnostics& diagnostics);
 
 /// What a plan says of its start.
 void take_start(const Start& start, LoopPlan& plan);

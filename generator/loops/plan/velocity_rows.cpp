@@ -43,13 +43,15 @@ bool check_linear(const model::Mechanism& mechanism, const ConstraintPrograms& c
 }
 
 std::vector<std::size_t> kept_rows(const NumericClosure& closure,
-                                   const std::vector<Configuration>& configurations,
-                                   const std::vector<Matrix>& jacobians) {
-  if (!closure.binds_velocities()) return regular_rows(jacobians);
-  std::vector<Matrix> of_positions;
-  for (const Configuration& c : configurations)
-    of_positions.push_back(closure.jacobian(c, RowsOf::kPositions));
-  return regular_rows(jacobians, kRowTolerance, regular_rows(of_positions));
+                                   const std::vector<Configuration>& configurations) {
+  const auto jacobians = [&](RowsOf rows) {
+    std::vector<Matrix> list;
+    for (const Configuration& c : configurations) list.push_back(closure.jacobian(c, rows));
+    return closure.in_units(list);
+  };
+  const std::vector<std::size_t> of_positions =
+      closure.binds_velocities() ? regular_rows(jacobians(RowsOf::kPositions)) : std::vector<std::size_t>();
+  return regular_rows(jacobians(RowsOf::kAll), kRowTolerance, of_positions);
 }
 
 namespace {
@@ -67,7 +69,8 @@ class Redundancy {
 
   bool check(const Configuration& c) const {
     for (const std::size_t row : others_)
-      if (const long double rest = largest_rest(closure_.jacobian(c), kept_, {row}); rest > kFollows)
+      if (const long double rest = largest_rest(closure_.in_units(closure_.jacobian(c)), kept_, {row});
+          rest > kFollows)
         return report(row, fmt::format("{} nearly follows from the others", in_words(loop_of(row))),
                       fmt::format("but for {:.1g} of them: strictly the mechanism loses a degree of freedom; "
                                   "write more digits, or leave it out",

@@ -14,8 +14,7 @@ bool check_linear(const model::Mechanism& mechanism, const ConstraintPrograms& c
 
 /// Those of regular_rows. No row of velocities takes the place of one of positions, which would be left open.
 std::vector<std::size_t> kept_rows(const NumericClosure& closure,
-                                   const std::vector<Configuration>& configurations,
-                                   const std::vector<Matrix>& jacobians);
+                                   const std::vector<Configuration>& configurations);
 
 /// False after a diagnostic: Newton's iterations may not be asked for, and at each configuration those rows that
 /// are not kept must follow from `kept`, what they ask of velocities too. They may do so at the start and not

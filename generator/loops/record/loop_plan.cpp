@@ -26,7 +26,9 @@ std::vector<std::size_t> LoopPlan::carried() const {
   return list;
 }
 
-double LoopPlan::most_left_open() const { return std::max(kAskew * length_unit, 10 * disagreement); }
+double LoopPlan::most_left_open() const {
+  return std::max(kAskew * std::min(1.0, length_unit), 10 * disagreement);
+}
 
 double LoopPlan::least_regularity() const {
   switch (treatment) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "reference/decompositions.hpp"
 #include "support/matrix_index.hpp"
@@ -75,11 +76,18 @@ void NumericClosure::disregard(const std::vector<std::size_t>& rows, long double
   limit_ = limit;
 }
 
+bool NumericClosure::closes(const Configuration& config) const {
+  constexpr long double kFinest = 1e-3L;
+  const Vector g = regarded(value(config));
+  for (Eigen::Index r = 0; r < g.size(); ++r)
+    if (!(std::abs(g[r]) <= kClosed * std::max(kFinest, row_units_[r]))) return false;
+  return true;
+}
+
 bool NumericClosure::is_closed(const Configuration& config) const {
   const Vector g = value(config);
-  return counted(g).lpNorm<Eigen::Infinity>() <= kClosed &&
-         std::all_of(disregarded_.begin(), disregarded_.end(),
-                     [&](std::size_t r) { return std::abs(g[at(r)]) <= limit_; });
+  return closes(config) && std::all_of(disregarded_.begin(), disregarded_.end(),
+                                       [&](std::size_t r) { return std::abs(g[at(r)]) <= limit_; });
 }
 
 Vector NumericClosure::regarded(Vector g) const {
@@ -97,8 +105,17 @@ Vector NumericClosure::counted(const Vector& g) const {
 }
 
 Vector NumericClosure::closing(const Matrix& G, const Vector& g, const std::vector<bool>& moving) const {
-  const Matrix in_units = row_units_.cwiseInverse().asDiagonal() * G * velocity_units_.asDiagonal();
-  return velocity_units_.cwiseProduct(least_norm(columns_of(regarded(in_units), moving), -g));
+  return velocity_units_.cwiseProduct(least_norm(columns_of(regarded(in_units(G)), moving), -g));
+}
+
+Matrix NumericClosure::in_units(const Matrix& G) const {
+  return row_units_.cwiseInverse().asDiagonal() * G * velocity_units_.asDiagonal();
+}
+
+std::vector<Matrix> NumericClosure::in_units(const std::vector<Matrix>& jacobians) const {
+  std::vector<Matrix> list;
+  for (const Matrix& G : jacobians) list.push_back(in_units(G));
+  return list;
 }
 
 long double NumericClosure::extent(const Vector& displacement) const {
@@ -107,6 +124,13 @@ long double NumericClosure::extent(const Vector& displacement) const {
 
 Vector NumericClosure::opening_rate(const Configuration& config, const Vector& z) const {
   return regarded(Vector(jacobian(config) * z + time_rate(config)));
+}
+
+NumericClosure::Bend NumericClosure::bend(const Configuration& config, const Vector& z,
+                                          const std::vector<std::size_t>& rows) const {
+  const Vector gamma = bias(config, z).cwiseQuotient(row_units_)(rows);
+  const Matrix G = in_units(jacobian(config))(rows, Eigen::all);
+  return {gamma - G * least_norm(G, gamma), gamma.size() > 0 ? gamma.lpNorm<Eigen::Infinity>() : 0};
 }
 
 Vector NumericClosure::value(const Configuration& config) const {
@@ -160,6 +184,19 @@ std::vector<std::size_t> NumericClosure::reversed(const Configuration& config) c
     if (values[k] < 0 && (loops.empty() || loops.back() != loop)) loops.push_back(loop);
   }
   return loops;
+}
+
+long double NumericClosure::distance(const Configuration& from, const Configuration& to) const {
+  long double largest = 0;
+  for (const model::Tangent::Scalar& s : tangent_.scalars) {
+    const long double change = std::abs(to.y[at(s.position)] - from.y[at(s.position)]);
+    largest = std::max(largest, change / velocity_units_[at(s.velocity)]);
+  }
+  for (const model::Tangent::Scalar& s : tangent_.quaternions) {
+    const Vector change = to.y.segment<4>(at(s.position)) - from.y.segment<4>(at(s.position));
+    largest = std::max(largest, 2 * change.norm());
+  }
+  return largest;
 }
 
 Configuration NumericClosure::displaced(const Configuration& from, const Vector& d) const {
@@ -228,14 +265,32 @@ bool in_range(const Configuration& config, const model::Mechanism& mechanism,
 
 namespace {
 
-/// A step of at most 0.7 units in which nothing but time moves a mechanism without freedom.
-Configuration driven(const NumericClosure& closure, const Configuration& from, long double time) {
-  const Vector z = closure.consistent(from, Vector::Zero(at(closure.velocity_count())), {});
-  const long double fastest = closure.extent(z);
-  if (fastest * time > 0.7L) time = 0.7L / fastest;
-  Configuration next = closure.displaced(from, z * time);
-  next.t += time;
-  return next;
+/// Where nothing but time moves a mechanism without freedom: a way of about 0.7 units at its speed at first, in steps
+/// after which little is left to close, so that it ends on the branch on which it begins; nothing where there is no way.
+std::optional<Configuration> driven(const NumericClosure& closure, const Configuration& from,
+                                    long double time) {
+  constexpr long double kFar = 0.7L, kNear = 0.1L;
+  constexpr int kSteps = 200;
+  const auto speed = [&](const Configuration& at) {
+    return closure.consistent(at, Vector::Zero(support::at(closure.velocity_count())), {});
+  };
+  const long double fastest = closure.extent(speed(from));
+  if (fastest * time > kFar) time = kFar / fastest;
+  Configuration now = from;
+  long double step = time;
+  for (int i = 0; i < kSteps; ++i) {
+    const long double left = from.t + time - now.t;
+    if (!(left > kRankTolerance * time)) break;
+    step = std::min(step, left);
+    Configuration ahead = closure.displaced(now, speed(now) * step);
+    ahead.t += step;
+    const Configuration next = closure.assembled(ahead, {});
+    const bool is_near = closure.is_closed(next) && closure.distance(ahead, next) <= kNear;
+    if (is_near) now = next;
+    step *= is_near ? 2.0L : 0.5L;
+  }
+  if (time > 0 && !(now.t > from.t)) return {};
+  return now;
 }
 
 }  // namespace
@@ -257,7 +312,11 @@ std::vector<Configuration> walk(const NumericClosure& closure, const Configurati
     const long double stride = uniform(0.1, 0.7), time = uniform(0, 1);
     Configuration next = closure.displaced(from, direction * (stride / length));
     next.t = start.t + time;
-    if (length < kRankTolerance) next = driven(closure, from, time);
+    if (length < kRankTolerance) {
+      const std::optional<Configuration> later = driven(closure, from, time);
+      if (!later) continue;
+      next = *later;
+    }
     next = closure.assembled(next, {});
     if (closure.is_closed(next) && in_range(next, mechanism, layout)) found.push_back(next);
   }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "loops/rows/constraints.hpp"
-#include "loops/rows/units.hpp"
+#include "loops/rows/size_units.hpp"
 #include "model/coordinates.hpp"
 
 namespace jourdain::loops {
@@ -43,7 +43,9 @@ class NumericClosure {
   /// Rows that follow from others, but for numbers that disagree: assembling and walking leave them open, by
   /// no more than `limit` (m, products of unit vectors) on the branch that is meant.
   void disregard(const std::vector<std::size_t>& rows, long double limit);
-  /// Whether the rows that are regarded are closed, and the others nearly so.
+  /// Whether the rows that are regarded are closed; lengths to a hundredth of a femtometre at least.
+  bool closes(const Configuration& at) const;
+  /// The same, and the others nearly so.
   bool is_closed(const Configuration& at) const;
   /// max |g| of the other rows, in their units.
   long double open(const Configuration& at) const { return counted(value(at)).lpNorm<Eigen::Infinity>(); }
@@ -53,6 +55,13 @@ class NumericClosure {
   Vector value(const Configuration& at) const;      ///< g
   Matrix jacobian(const Configuration& at) const;   ///< G, rows × nz
   Vector time_rate(const Configuration& at) const;  ///< g_t
+  /// What of γ no accelerations undo, of these rows in their units: where they are independent elsewhere it is beyond
+  /// rounding only where the mechanism is singular and moves in a way in which it cannot go on.
+  struct Bend {
+    Vector left;
+    long double largest = 0;  ///< max |γ|
+  };
+  Bend bend(const Configuration& at, const Vector& z, const std::vector<std::size_t>& rows) const;
   /// γ = g̈ − G ż
   Vector bias(const Configuration& at, const Vector& z) const;
   /// By how much points that are looked for in the rows may be missed there, m, and whose loop it is: where most.
@@ -64,8 +73,13 @@ class NumericClosure {
   /// Loops that are closed with axes against each other.
   std::vector<std::size_t> reversed(const Configuration& at) const;
 
+  /// G between displacements and rows in units: what a row weighs beside others, of which some are lengths.
+  Matrix in_units(const Matrix& G) const;
+  std::vector<Matrix> in_units(const std::vector<Matrix>& jacobians) const;
   /// What a displacement or velocity amounts to, in the units of its entries.
   long double extent(const Vector& displacement) const;
+  /// How far they are from each other, in units.
+  long double distance(const Configuration& from, const Configuration& to) const;
   /// y moved by the displacement; quaternions keep unit length.
   Configuration displaced(const Configuration& from, const Vector& displacement) const;
 

@@ -17,9 +17,9 @@ namespace jourdain::loops {
 
 namespace {
 
-/// Rows that agree to this with others are closed with them; in m and products of unit vectors.
+/// Rows that agree to this with others are closed with them; in the rows' units.
 constexpr long double kAgrees = kClosed / 4;
-/// Elsewhere they may fit that many times worse, within limits; m, rad.
+/// Elsewhere they may fit that many times worse, within limits; in the rows' units.
 constexpr long double kNearly = 1000, kLeastLimit = 1e-9L, kMostLimit = 0.03L;
 /// A row that differs that much from combinations of others is another one however its numbers are rounded.
 constexpr long double kUnlike = 1e-2L;
@@ -53,16 +53,17 @@ class Settlement {
     std::vector<bool> moving(layout_.velocity_count(), true);
     for (const std::size_t k : independent_) moving[k] = false;
     const Configuration nearest = closure_.assembled(initial, moving);
-    const Matrix G = closure_.jacobian(nearest);
+    const Matrix G = closure_.in_units(closure_.jacobian(nearest));
     const std::vector<std::size_t> regular = regular_rows({G}, tolerance), others = all_but(regular);
     const long double apart = furthest_apart(nearest, G, regular, others);
     if (others.empty() || apart <= kAgrees || apart > tolerance || !are_sized(others, tolerance))
       return false;
-    const long double limit = std::clamp(kNearly * apart, kLeastLimit, kMostLimit) * largest_unit(others);
+    const long double share = std::clamp(kNearly * apart, kLeastLimit, kMostLimit);
+    const long double limit = share * largest_unit(others);
     closure_.disregard(others, limit);
     const std::vector<Configuration> seen =
         walk(closure_, closure_.assembled(nearest, moving), mechanism_, configurations_);
-    found_.rows = left_open(seen, others.size(), limit);
+    found_.rows = left_open(seen, others.size(), share);
     closure_.disregard(found_.rows, limit);
     if (found_.rows.empty()) return false;
     for (const Configuration& c : seen) found_.amount = std::max(found_.amount, furthest_open(c));
@@ -74,7 +75,7 @@ class Settlement {
                              const std::vector<std::size_t>& regular,
                              const std::vector<std::size_t>& others) const {
     long double apart = closure_.open(nearest);
-    for (const std::size_t r : others) apart = std::max(apart, largest_rest(G, regular, {r}) / unit_of(r));
+    for (const std::size_t r : others) apart = std::max(apart, largest_rest(G, regular, {r}));
     return apart;
   }
 
@@ -96,16 +97,16 @@ class Settlement {
            std::none_of(rows.begin(), rows.end(), [&](std::size_t r) { return is_expression[r]; });
   }
 
-  /// The `count` rows that are left open best where all stay open by no more than `limit` wherever the others
-  /// let the mechanism go; none where they do not. Near a singular configuration rows nearly follow from
+  /// The `count` rows that are left open best where all stay open by no more than `share` of their units wherever
+  /// the others let the mechanism go; none where they do not. Near a singular configuration rows nearly follow from
   /// others, too, but not for long.
   std::vector<std::size_t> left_open(const std::vector<Configuration>& seen, std::size_t count,
-                                     long double limit) const {
+                                     long double share) const {
     if (!closure_.is_closed(seen.front()) || seen.size() < configurations_ / 2) return {};
     std::vector<Matrix> jacobians;
-    for (const Configuration& c : seen) jacobians.push_back(closure_.jacobian(c));
+    for (const Configuration& c : seen) jacobians.push_back(closure_.in_units(closure_.jacobian(c)));
     const std::vector<std::size_t> open =
-        all_but(regular_rows(jacobians, std::clamp(limit, kRowTolerance, kUnlike)));
+        all_but(regular_rows(jacobians, std::clamp(share, kRowTolerance, kUnlike)));
     return open.size() == count ? open : std::vector<std::size_t>();
   }
 
@@ -120,7 +121,7 @@ class Settlement {
         "constraints {} hold next to nothing that the others do not: they are left open, by up to {:.1g}",
         fmt::join(names, ", "), found_.amount);
     const support::SourceRange where = mechanism_.loops.front().where;
-    if (found_.amount <= kRowTolerance)
+    if (found_.amount <= kRowTolerance * std::min(1.0L, closure_.units().length))
       diagnostics_.note(where, what, "rounded numbers, or an axis that is askew");
     else
       diagnostics_.warning(where, what,

@@ -41,9 +41,10 @@ class ContactReader {
     const auto frame = find_frame(file_, table_, "frame", mechanism_);
     const Ground ground(table_, "a normal points out of the ground, such as [0, 0, 1]");
     const Expression radius = table_.not_negative("radius", needed::kLength);
+    const std::size_t before = file_.error_count();
     const double exponent =
         table_.has("exponent") ? file_.constant(*table_.find("exponent"), place("exponent")) : 1;
-    if (!(exponent >= 1 && exponent <= 10))
+    if (file_.error_count() == before && !(exponent >= 1 && exponent <= 10))
       table_.error("exponent", fmt::format("{} is not between 1 and 10", table_.quoted("exponent")),
                    "spheres have 1.5");
     const Expression stiffness =

@@ -7,8 +7,8 @@
 
 namespace jourdain::loops {
 
-/// m, rad: tolerances and steps in lengths count as those in angles do for mechanisms of 5 cm to 20 m; smaller and
-/// larger ones have them in proportion.
+/// m, rad: tolerances and steps in lengths count as those in angles do where what loops join is 5 cm to 2 m from the
+/// origins of its bodies; smaller and larger mechanisms have them in proportion.
 struct Units {
   long double length = 1;
   std::vector<long double> rows;  ///< of constraints: `length` where they are lengths, otherwise 1
