@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "commands/run_jourdain.hpp"
+#include "support/files.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace jourdain::tests {
@@ -40,12 +41,19 @@ TEST_F(IndependentVelocitiesOnTheCommandLine, WMethodsDoWithoutSome) {
 }
 
 TEST_F(IndependentVelocitiesOnTheCommandLine, AreProvenAgainAtOtherParameters) {
-  const std::vector<std::string> driven = {"--output",         csv_,     "--duration", "0.1",
-                                           "--constant-input", "0.2,0.3"};
+  std::string text = support::read_file(std::string(JOURDAIN_SOURCE_DIR) + "/" + kRobot);
+  for (const std::string range : {", range = [0.05, 0.2]", ", range = [0.2, 0.8]"}) {
+    ASSERT_NE(text.find(range), std::string::npos);
+    text.erase(text.find(range), range.size());
+  }
+  const std::string robot = folder_.path() + "/robot.toml";
+  support::write_file(robot, text);
+  const std::vector<std::string> driven = {"simulate",   robot, "--output",         csv_,
+                                           "--duration", "0.1", "--constant-input", "0.2,0.3"};
   const auto with = [&](const char* setting) {
     std::vector<std::string> options = driven;
     options.insert(options.end(), {"--set", setting});
-    return run("simulate", options);
+    return jourdain(options);
   };
   expect(with("radius=0.2"), 0, "at t = 0.1 s");
   expect(with("track=0.3"), 0, "at t = 0.1 s");
