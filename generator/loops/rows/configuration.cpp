@@ -266,7 +266,7 @@ bool in_range(const Configuration& config, const model::Mechanism& mechanism,
 namespace {
 
 /// Where nothing but time moves a mechanism without freedom: a way of about 0.7 units at its speed at first, in steps
-/// after which little is left to close, so that it ends on the branch on which it begins; nothing where there is no way.
+/// after which little is left to close, so that it ends on the branch on which it begins; nothing where no way leads.
 std::optional<Configuration> driven(const NumericClosure& closure, const Configuration& from,
                                     long double time) {
   constexpr long double kFar = 0.7L, kNear = 0.1L;
