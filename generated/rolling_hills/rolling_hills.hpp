@@ -10,7 +10,7 @@
 // Loops
 // - 3 degrees of freedom: 6 coordinates of the tree, 3 of 3 constraints are independent
 // - multipliers; one projection of positions and velocities at the end of a step
-// - G M^-1 G^T is regularised by d = 2.4e-10/kg: near singular configurations multipliers and accelerations
+// - G M^-1 G^T is regularised by d = 2.5e-10/kg: near singular configurations multipliers and accelerations
 //   lose a share (d/(s + d))^2, s its smallest singular value
 // - a step from one side of a singular configuration of the mechanism to the other goes straight on; nothing
 //   but State's opening may show it
@@ -32,7 +32,7 @@
 //   linearly_implicit_euler_step, ros34pw2_step, rosw43_step, rodas4_step
 // Checked before this file was written
 // - validated at 8 states: in 77 digits everything below agrees to 1e-40 of its scale (what rounding can move
-//   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 6.6e-16 of the
+//   it by, over the unit roundoff). In double the backward error of M zdot = k_bar - q_bar is 6.2e-16 of the
 //   sum of absolute terms, other errors are 1.2e-15 of their scale; cond(M) up to 4.5e+01
 // - 2 kinks of abs, min, max, floor and if, 0 compared on both sides, the nearest 1e+00 of its scale away
 // - the symbolic equations (M, k_bar, q_bar, Z z, energies, outputs): the numeric reference
@@ -118,17 +118,17 @@ struct Model {
     return state.regularity >= Real(least_regularity) && state.opening <= Real(greatest_opening);
   }
 
-  Real radius;
   Real mass;
   Real S0b_zz;
   Real Jy0;
   Real kdS00;
   Real q_2;
   Real wave;
+  Real c6;
   Real c7;
-  Real c8;
   Real hill;
-  Real c10;
+  Real c9;
+  Real radius;
   Real c11;
   Real c12;
   Real c13;
@@ -200,7 +200,7 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
 
 /// Accelerations zdot = M^-1 (k_bar - q_bar), rad/s^2 or m/s^2.
 /// The loops add their forces: M zdot = k_bar - q_bar - G^T lambda, see constraint_forces.
-/// 1075 operations (664 mul, 389 add and sub, 15 div), 20 sin and cos.
+/// 1080 operations (667 mul, 391 add and sub, 15 div), 20 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void forward_dynamics(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&zdot)[6]) noexcept;
@@ -244,14 +244,14 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
 
 /// Multipliers lambda of M zdot = k_bar - q_bar - G^T lambda over all coordinates of the tree; the force of the
 /// constraints is -G^T lambda. N; N m for rows without a length.
-/// 1036 operations (638 mul, 376 add and sub, 15 div), 20 sin and cos.
+/// 1041 operations (641 mul, 378 add and sub, 15 div), 20 sin and cos.
 template <class Real> JOURDAIN_FUNCTION
 void constraint_forces(const Model<Real>& model, const State<Real>& state, const Input<Real>& input, Real
     (&lambda)[3]) noexcept;
 
 /// One step of length h (s) with the classical Runge-Kutta method of order 4; inputs are held over the step.
 /// Four calls of forward_dynamics.
-/// 5816 operations.
+/// 5836 operations.
 template <class Real> JOURDAIN_FUNCTION
 void rk4_step(const Model<Real>& model, State<Real>& state, const Input<Real>& input, Real h) noexcept;
 

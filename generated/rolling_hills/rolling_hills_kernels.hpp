@@ -333,43 +333,43 @@ Model<Real>::Model(const Parameters& parameters) noexcept {
   const Real expression_2 = expression * mass;
   const Real expression_3 = expression_2 * Real(0.25);
   const Real expression_4 = Real(0.5) * expression_2;
-  const Real t8 = Real(0.5) * expression_3;
+  const Real t9 = Real(0.5) * expression_3;
   const Real disc_S_xx = Real(0.5) * expression_4;
-  S0b_zz = t8 + t8;
+  S0b_zz = t9 + t9;
   Jy0 = disc_S_xx + disc_S_xx;
   const Real disc_S_yy = disc_S_xx - S0b_zz;
   kdS00 = disc_S_xx + disc_S_yy;
   q_2 = mass * Real(9.81);
   wave = parameters.wave;
   hill = parameters.hill;
-  c7 = wave * hill;
-  c10 = wave * wave;
-  c8 = hill * c10;
+  c6 = wave * hill;
+  c9 = wave * wave;
+  c7 = hill * c9;
   S0b_zz_2 = disc_S_xx - disc_S_yy;
   c11 = Real(1.0) / S0b_zz_2;
   c12 = Real(1.0) / Jy0;
   c13 = Real(1.0) / mass;
   c15 = q_2 * c13;
   c17 = Real(0.5) * mass;
-  c18 = radius * Real(0.5);
+  c18 = Real(0.5) * radius;
   c19 = Real(1.0) / S0b_zz;
   c20 = kdS00 * c11;
-  c14 = wave * c7;
+  c14 = wave * c6;
 }
 
 template <class Real> JOURDAIN_FUNCTION
-State<Real> initial_state(const Model<Real>& model) noexcept {
+State<Real> initial_state(const Model<Real>&) noexcept {
   State<Real> initial;
-  initial.y[0] = Real(0.0);
+  initial.y[0] = Real(-0.0005925350767484848);
   initial.y[1] = Real(0.0);
-  initial.y[2] = model.radius;
-  initial.y[3] = Real(0.9917557346689373);
-  initial.y[4] = Real(-0.08088119902305282);
-  initial.y[5] = Real(-0.0953688419931061);
-  initial.y[6] = Real(0.027992469929676012);
-  initial.z[0] = Real(2.6628637290651627);
-  initial.z[1] = Real(0.12292636778397861);
-  initial.z[2] = Real(0.4328279166584659);
+  initial.y[2] = Real(0.30371395923871347);
+  initial.y[3] = Real(1.0);
+  initial.y[4] = Real(0.0);
+  initial.y[5] = Real(0.0);
+  initial.y[6] = Real(0.0);
+  initial.z[0] = Real(2.6662749602197917);
+  initial.z[1] = Real(-0.07343105131325911);
+  initial.z[2] = Real(0.4254148992512456);
   initial.z[3] = Real(0.2);
   initial.z[4] = Real(9.0);
   initial.z[5] = Real(0.3);
@@ -464,14 +464,14 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real groundgs_yy = Real(1.0) - q0r1_y * q0r1_y;
   const Real groundgs_yz = q0r1_y * q0r2_y;
   const Real groundgs_zz = Real(1.0) - q0r2_y * q0r2_y;
-  const Real expression_3 = expression_2 * model.c7;
+  const Real expression_3 = expression_2 * model.c6;
   const Real expression_6 = expression_3 * expression_5;
-  const Real expression_8 = expression_7 * (expression_5 * model.c8);
+  const Real expression_8 = expression_7 * (expression_5 * model.c7);
   const Real expression_9 = expression_7 * model.hill;
   const Real expression_11 = model.wave * expression_10;
   const Real expression_12 = expression_9 * expression_11;
   const Real expression_13 = expression_3 * expression_11;
-  const Real expression_14 = expression_9 * (expression_5 * model.c10);
+  const Real expression_14 = expression_9 * (expression_5 * model.c9);
   const Real groundg0e_x = groundgs_xy * expression_12 - (groundgs_xz + groundgs_xx * expression_6);
   const Real groundg0e_y = groundgs_yy * expression_12 + (groundgs_yz - groundgs_xy * expression_6);
   const Real groundg0u = expression_12 * (groundgs_yz + groundg0e_y) + (groundgs_zz + expression_6 *
@@ -504,17 +504,17 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real expression_15 = model.wave * groundgc;
   Real expression_21, expression_16;
   detail::sine_cosine(expression_15, expression_21, expression_16);
-  const Real expression_17 = model.c7 * expression_16;
+  const Real expression_17 = model.c6 * expression_16;
   const Real expression_18 = model.wave * groundgc_2;
   Real expression_24, expression_19;
   detail::sine_cosine(expression_18, expression_24, expression_19);
   const Real expression_20 = expression_17 * expression_19;
-  const Real expression_22 = expression_21 * (model.c8 * expression_19);
+  const Real expression_22 = expression_21 * (model.c7 * expression_19);
   const Real expression_23 = model.hill * expression_21;
   const Real expression_25 = model.wave * expression_24;
   const Real expression_26 = expression_23 * expression_25;
   const Real expression_27 = expression_17 * expression_25;
-  const Real expression_28 = expression_23 * (model.c10 * expression_19);
+  const Real expression_28 = expression_23 * (model.c9 * expression_19);
   const Real groundg1e_x = groundgs_xy * expression_26 + (groundgs_xz + groundgs_xx * expression_20);
   const Real groundg1e_y = groundgs_yy * expression_26 - (groundgs_yz - groundgs_xy * expression_20);
   const Real groundg1u = expression_26 * (groundgs_yz - groundg1e_y) - (groundgs_zz + expression_20 *
@@ -547,17 +547,17 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real expression_29 = model.wave * groundgc_3;
   Real expression_35, expression_30;
   detail::sine_cosine(expression_29, expression_35, expression_30);
-  const Real expression_31 = model.c7 * expression_30;
+  const Real expression_31 = model.c6 * expression_30;
   const Real expression_32 = model.wave * groundgc_4;
   Real expression_38, expression_33;
   detail::sine_cosine(expression_32, expression_38, expression_33);
   const Real expression_34 = expression_31 * expression_33;
-  const Real expression_36 = expression_35 * (model.c8 * expression_33);
+  const Real expression_36 = expression_35 * (model.c7 * expression_33);
   const Real expression_37 = model.hill * expression_35;
   const Real expression_39 = model.wave * expression_38;
   const Real expression_40 = expression_37 * expression_39;
   const Real expression_41 = expression_31 * expression_39;
-  const Real expression_42 = expression_37 * (model.c10 * expression_33);
+  const Real expression_42 = expression_37 * (model.c9 * expression_33);
   const Real groundg2e_x = groundgs_xy * expression_40 - (groundgs_xz + groundgs_xx * expression_34);
   const Real groundg2e_y = groundgs_yy * expression_40 + (groundgs_yz - groundgs_xy * expression_34);
   const Real groundg2u = expression_40 * (groundgs_yz + groundg2e_y) + (groundgs_zz + expression_34 *
@@ -590,17 +590,17 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real expression_43 = model.wave * groundgc_5;
   Real expression_49, expression_44;
   detail::sine_cosine(expression_43, expression_49, expression_44);
-  const Real expression_45 = model.c7 * expression_44;
+  const Real expression_45 = model.c6 * expression_44;
   const Real expression_46 = model.wave * groundgc_6;
   Real expression_52, expression_47;
   detail::sine_cosine(expression_46, expression_52, expression_47);
   const Real expression_48 = expression_45 * expression_47;
-  const Real expression_50 = expression_49 * (model.c8 * expression_47);
+  const Real expression_50 = expression_49 * (model.c7 * expression_47);
   const Real expression_51 = model.hill * expression_49;
   const Real expression_53 = model.wave * expression_52;
   const Real expression_54 = expression_51 * expression_53;
   const Real expression_55 = expression_45 * expression_53;
-  const Real expression_56 = expression_51 * (model.c10 * expression_47);
+  const Real expression_56 = expression_51 * (model.c9 * expression_47);
   const Real groundg3e_x = groundgs_xy * expression_54 + (groundgs_xz + groundgs_xx * expression_48);
   const Real groundg3e_y = groundgs_yy * expression_54 - (groundgs_yz - groundgs_xy * expression_48);
   const Real groundg3u = expression_54 * (groundgs_yz - groundg3e_y) - (groundgs_zz + expression_48 *
@@ -637,7 +637,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real expression_60 = model.wave * groundgc_8;
   Real expression_65, expression_61;
   detail::sine_cosine(expression_60, expression_65, expression_61);
-  const Real expression_63 = model.c7 * expression_62;
+  const Real expression_63 = model.c6 * expression_62;
   const Real expression_64 = expression_61 * expression_63;
   const Real expression_66 = model.wave * expression_65;
   const Real expression_67 = expression_59 * expression_66;
@@ -667,12 +667,15 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t404 = expression_67 + expression_67;
   const Real t406 = q0r1_y * t404;
   const Real t407 = t402 + t402;
+  const Real t411 = q0r0_y * t407 - (q0r2_y * t404 - expression_67 * t406);
   const Real t413 = expression_64 + expression_64;
+  const Real t416 = q0r1_y * t407 + (t384 * t393 - q0r2_y * t413);
   const Real t417 = q0r0_y * t413;
   const Real t418 = t395 - t406;
-  const Real t420 = t399 * (q0r0_y * t407 - (q0r2_y * t404 - expression_67 * t406));
-  const Real t421 = t399 * (q0r1_y * t407 + (t384 * t393 - q0r2_y * t413));
-  const Real t422 = t399 * (t417 - t418);
+  const Real t419 = t417 - t418;
+  const Real t420 = t399 * t411;
+  const Real t421 = t399 * t416;
+  const Real t422 = t399 * t419;
   const Real t423 = q0d1 + q0d1;
   const Real t430 = q0d3 * t422 - q0d1 * t421;
   const Real t435 = q0d1 * t422 + q0d3 * t421;
@@ -724,23 +727,23 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t550 = t449 * t545 + t453 * t547;
   const Real t554 = groundgo_4 * groundgo_4;
   const Real t566 = Real(1.0) / (model.c11 * (t449 * t449 + t453 * t453) + (t528 * (groundgo_2 * model.c13) +
-      Real(5.501451103109343e-11)));
+      Real(4.9999999999999995e-11)));
   const Real t567 = t536 * t566;
   const Real t578 = t550 * t566;
   const Real t582 = t536 * t578 - (grounds1bn0_z * t547 + (grounds1bn0_x * t545 + grounds1bn0_y * t546));
   const Real t584 = Real(1.0) / (t536 * t567 - (grounds1bn0_x * t532 + (model.c13 * (groundgy_z * groundgy_z +
-      (groundgy_x * groundgy_x + groundgy_y * groundgy_y)) + Real(1.5042161762862643e-10)) + (grounds1bn0_y *
+      (groundgy_x * groundgy_x + groundgy_y * groundgy_y)) + Real(1.5000000000000002e-10)) + (grounds1bn0_y *
       (grounds1bn0_y * model.c12) + grounds1bn0_z * t533)));
   const Real t585 = t582 * t584;
   const Real t596 = Real(1.0) / (t582 * t585 - (t550 * t578 - (grounds2bn0_x * t545 + (t554 * (groundgo *
-      model.c13) + Real(2.445638713402802e-10)) + (grounds2bn0_y * t546 + grounds2bn0_z * t547))));
+      model.c13) + Real(2.5e-10)) + (grounds2bn0_y * t546 + grounds2bn0_z * t547))));
   const Real t601 = t392 * state.z[5] + (t390 * state.z[3] + t391 * state.z[4]);
   const Real t606 = t391 * state.z[5] + (t389 * state.z[3] - t392 * state.z[4]);
   const Real t611 = t390 * state.z[5] - (t392 * state.z[3] + t389 * state.z[4]);
   const Real t616 = t389 * state.z[5] - (t391 * state.z[3] - t390 * state.z[4]);
   const Real expression_68 = expression_61 * (expression_58 * model.c14);
   const Real expression_69 = expression_63 * expression_66;
-  const Real expression_70 = expression_59 * (model.c10 * expression_61);
+  const Real expression_70 = expression_59 * (model.c9 * expression_61);
   const Real groundggl = model.radius * groundggi;
   const Real groundggp = groundgs_xx - groundggq_x * groundggq_x;
   const Real groundggp_2 = groundgs_xy - groundggq_x * groundggq_y;
@@ -772,8 +775,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t681 = t395 * t671;
   const Real t683 = t406 * t662 + (expression_64 * t673 - t680);
   const Real t688 = t417 * t668 + (expression_67 * t673 - t678);
-  const Real t694 = expression_67 * (t680 - t683) + (t681 + expression_64 * (t678 - t688));
-  const Real t697 = t651 * (t397 * t694);
+  const Real t697 = t651 * (t397 * (expression_67 * (t680 - t683) + (t681 + expression_64 * (t678 - t688))));
   const Real t703 = state.z[1] + model.radius * (groundggi * t683 + groundgge_y * t697);
   const Real t705 = state.z[0] - model.radius * (groundggi * t688 - groundgge_x * t697);
   const Real t710 = groundggd * (groundggj_4 * t705) - groundggd * (groundggj_2 * t703);
@@ -803,67 +805,67 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t851 = t660 + t670;
   const Real t859 = groundgv_x * groundgz_z;
   const Real t865 = t656 + t667;
-  const Real t880 = t394 * t721 - t404 * t662;
-  const Real t894 = groundgs_xy * t719 + (t683 + groundgs_yy * t721);
-  const Real t901 = groundgs_xz * t719 - (groundgs_yz * t721 - (expression_64 * t678 + (t681 + expression_67 *
+  const Real t882 = t394 * t721 - t404 * t662;
+  const Real t899 = groundgs_xy * t719 + (t683 + groundgs_yy * t721);
+  const Real t906 = groundgs_xz * t719 - (groundgs_yz * t721 - (expression_64 * t678 + (t681 + expression_67 *
       t680)));
-  const Real t904 = groundgs_xx * t719 - (t688 - groundgs_xy * t721);
-  const Real t911 = t397 * (t901 - (groundgge_y * t721 + groundgge_x * t719) - (expression_67 * t894 -
-      expression_64 * t904));
-  const Real t917 = t651 * t911;
-  const Real t928 = t846 - t850;
-  const Real t929 = t846 + t850;
-  const Real t939 = groundggl * t904 + t917 * (model.radius * groundgge_x);
-  const Real t941 = groundggl * t901 - t474 * t917;
-  const Real t946 = t653 - t838;
-  const Real t947 = t658 - t838;
-  const Real t958 = model.radius * (groundggi * t894 + groundgge_y * t917);
+  const Real t909 = groundgs_xx * t719 - (t688 - groundgs_xy * t721);
+  const Real t916 = t397 * (t906 - (groundgge_y * t721 + groundgge_x * t719) - (expression_67 * t899 -
+      expression_64 * t909));
+  const Real t922 = t651 * t916;
+  const Real t933 = t846 - t850;
+  const Real t934 = t846 + t850;
+  const Real t944 = groundggl * t909 + t922 * (model.radius * groundgge_x);
+  const Real t946 = groundggl * t906 - t474 * t922;
+  const Real t951 = t653 - t838;
+  const Real t952 = t658 - t838;
+  const Real t963 = model.radius * (groundggi * t899 + groundgge_y * t922);
   const Real rdn0_x = model.kdS00 * (state.z[4] * state.z[5]);
   const Real rdn0_z = model.kdS00 * (state.z[3] * state.z[4]);
-  const Real t992 = model.c11 * rdn0_x;
-  const Real t993 = model.c11 * rdn0_z;
-  const Real t1004 = t611 * t823 - t601 * t822;
-  const Real t1011 = t601 * t823 + t611 * t822;
-  const Real t1029 = t694 * (t398 * t751 - t911 * (t397 * (groundggi * (model.radius * groundgo_3)))) +
-      (state.z[0] * (groundgo_3 * t719 + expression_64 * t751) + (expression_67 * t880 + (t393 * t743 - (t418
-      * t721 + (t404 * t671 + t407 * t668)))) * (t399 * t662) + ((t394 * t743 - (t393 * t740 - (t395 * t719 -
-      (t407 * t662 + (t413 * t671 + t384 * (Real(2.0) * t668)))))) * (t399 * t668) + (t880 - (t393 * t719 +
-      (Real(2.0) * t671 + t413 * t668))) * (t399 * t671) + (state.z[1] * (groundgo_3 * t721 - expression_67 *
-      t751) - (state.z[2] * t751 - (t616 * (Real(0.5) * (t430 * state.z[3] + t440 * state.z[4]) - (t616 * t829
-      + t1011 + (state.z[5] * t810 + t1011))) + (groundgo_3 * model.c15 + t449 * t992) + (t611 * (state.z[5] *
-      t812 + (state.z[4] * t810 - state.z[3] * t811)) + t453 * t993 + (t601 * (state.z[5] * t811 + (state.z[3]
-      * t812 - state.z[4] * t809)) - t606 * (state.z[5] * t809 + (t606 * t829 - t1004) + (state.z[4] * t811 +
-      (state.z[3] * t810 - t1004))))))))));
-  const Real t1048 = (groundgy_z * t786 - groundgy_x * t794) * t958 + (groundgy_y * t786 - groundgy_x * t781)
-      * t941 - (t567 * t1029 + ((groundgy_z * t781 - groundgy_y * t794) * t939 + ((groundgo_5 * t719 +
-      expression_64 * t760) * t789 - (grounds1bn0_x * t992 - (t478 * (state.z[3] * t929) - t486 * (state.z[3]
-      * t947) - (t482 * (state.z[3] * t865) - t482 * (state.z[5] * t851))) + (grounds1bn0_z * t993 + (t486 *
-      (state.z[5] * t928) + t478 * (state.z[5] * t946) + (t478 * (state.z[4] * t671) + groundgy_z * model.c15
+  const Real t997 = model.c11 * rdn0_x;
+  const Real t998 = model.c11 * rdn0_z;
+  const Real t1009 = t611 * t823 - t601 * t822;
+  const Real t1016 = t601 * t823 + t611 * t822;
+  const Real t1034 = (t411 * t662 + (t416 * t668 + t419 * t671)) * (t398 * t751 - t916 * (t397 * (groundggi *
+      (model.radius * groundgo_3)))) - (state.z[0] * (groundgo_3 * t719 + expression_64 * t751) +
+      (expression_67 * t882 + (t393 * t743 - (t418 * t721 + (t404 * t671 + t407 * t668)))) * (t399 * t662) +
+      ((t394 * t743 - (t393 * t740 - (t395 * t719 - (t407 * t662 + (t413 * t671 + t384 * (Real(2.0) *
+      t668)))))) * (t399 * t668) + (t882 - (t393 * t719 + (Real(2.0) * t671 + t413 * t668))) * (t399 * t671) +
+      (state.z[1] * (groundgo_3 * t721 - expression_67 * t751) - (state.z[2] * t751 - (t616 * (Real(0.5) *
+      (t430 * state.z[3] + t440 * state.z[4]) - (t616 * t829 + t1016 + (state.z[5] * t810 + t1016))) +
+      (groundgo_3 * model.c15 + t449 * t997) + (t611 * (state.z[5] * t812 + (state.z[4] * t810 - state.z[3] *
+      t811)) + t453 * t998 + (t601 * (state.z[5] * t811 + (state.z[3] * t812 - state.z[4] * t809)) - t606 *
+      (state.z[5] * t809 + (t606 * t829 - t1009) + (state.z[4] * t811 + (state.z[3] * t810 - t1009))))))))));
+  const Real t1053 = (groundgy_z * t786 - groundgy_x * t794) * t963 + (groundgy_y * t786 - groundgy_x * t781)
+      * t946 + (t567 * t1034 - ((groundgy_z * t781 - groundgy_y * t794) * t944 + ((groundgo_5 * t719 +
+      expression_64 * t760) * t789 - (grounds1bn0_x * t997 - (t478 * (state.z[3] * t934) - t486 * (state.z[3]
+      * t952) - (t482 * (state.z[3] * t865) - t482 * (state.z[5] * t851))) + (grounds1bn0_z * t998 + (t486 *
+      (state.z[5] * t933) + t478 * (state.z[5] * t951) + (t478 * (state.z[4] * t671) + groundgy_z * model.c15
       - (t482 * (state.z[4] * t662) + t486 * (state.z[4] * t668)))))) + ((t402 * t760 - groundgo_5 * t743) *
       (groundgv_x * t794 + (state.z[1] - groundgv_z * t786)) + (groundgo_5 * t726 - groundgo * t760) *
       (groundgv_y * t794 - (state.z[0] + groundgv_z * t781))))));
-  const Real t1063 = t596 * (t786 * (groundgz_z * t958 - (groundgv_z * t734 + groundgo_4 * t941)) +
-      (state.z[3] * (t507 * t939 - (groundgv_x * (q0r2_x * t734 + groundgo_4 * t929) + (t503 * t947 + t859 *
-      t865))) + state.z[5] * (t519 * t939 + (groundgv_x * (q0r2_z * t734 + groundgo_4 * t946) + (t851 * t859 -
-      t503 * t928)))) + (t585 * t1048 - (state.z[4] * (t513 * t939 + (groundgv_x * (q0r2_y * t734 - groundgo_4
-      * t671) - (t662 * t859 + t503 * t668))) - (t578 * t1029 + ((groundgo_4 * t721 - expression_67 * t734) *
-      t789 + (state.z[1] * t734 - (grounds2bn0_z * t993 - (groundgz_z * model.c15 - grounds2bn0_x *
-      t992))))))));
-  const Real t1065 = t584 * t1048 - t585 * t1063;
-  const Real t1069 = t567 * t1065 + (t566 * t1029 + t578 * t1063);
-  const Real t1070 = Real(5.501451103109343e-11) * t1069;
-  const Real t1074 = Real(1.5042161762862643e-10) * t1065 + t567 * t1070;
-  const Real t1081 = t596 * (t585 * t1074 - (Real(2.445638713402802e-10) * t1063 + t578 * t1070));
-  const Real t1083 = t584 * t1074 - t585 * t1081;
-  const Real t1088 = t567 * t1083 + (t578 * t1081 - (t1069 + t566 * t1070));
-  const Real t1089 = t1065 - t1083;
-  const Real t1090 = t1063 - t1081;
-  zdot[0] = model.c13 * (t1088 * (expression_64 * groundgo_3) - groundgy_x * t1089);
-  zdot[1] = -(model.c13 * (t1088 * (expression_67 * groundgo_3) + (groundgy_y * t1089 + groundgo_4 * t1090)));
-  zdot[2] = -(model.c13 * (groundgo_3 * t1088 + (groundgy_z * t1089 - (groundgz_z * t1090 - model.q_2))));
-  zdot[3] = model.c11 * (t449 * t1088 + (grounds1bn0_x * t1089 + (rdn0_x + grounds2bn0_x * t1090)));
-  zdot[4] = -(model.c12 * (grounds1bn0_y * t1089 + grounds2bn0_y * t1090));
-  zdot[5] = -(model.c11 * (t453 * t1088 + (grounds1bn0_z * t1089 + (rdn0_z + grounds2bn0_z * t1090))));
+  const Real t1068 = t596 * (t786 * (groundgz_z * t963 - (groundgv_z * t734 + groundgo_4 * t946)) +
+      (state.z[3] * (t507 * t944 - (groundgv_x * (q0r2_x * t734 + groundgo_4 * t934) + (t503 * t952 + t859 *
+      t865))) + state.z[5] * (t519 * t944 + (groundgv_x * (q0r2_z * t734 + groundgo_4 * t951) + (t851 * t859 -
+      t503 * t933)))) + (t585 * t1053 - (state.z[4] * (t513 * t944 + (groundgv_x * (q0r2_y * t734 - groundgo_4
+      * t671) - (t662 * t859 + t503 * t668))) + (t578 * t1034 - ((groundgo_4 * t721 - expression_67 * t734) *
+      t789 + (state.z[1] * t734 - (grounds2bn0_z * t998 - (groundgz_z * model.c15 - grounds2bn0_x *
+      t997))))))));
+  const Real t1070 = t584 * t1053 - t585 * t1068;
+  const Real t1074 = t567 * t1070 - (t566 * t1034 - t578 * t1068);
+  const Real t1075 = Real(4.9999999999999995e-11) * t1074;
+  const Real t1079 = Real(1.5000000000000002e-10) * t1070 + t567 * t1075;
+  const Real t1086 = t596 * (t585 * t1079 - (Real(2.5e-10) * t1068 + t578 * t1075));
+  const Real t1088 = t584 * t1079 - t585 * t1086;
+  const Real t1093 = t567 * t1088 + (t578 * t1086 - (t1074 + t566 * t1075));
+  const Real t1094 = t1070 - t1088;
+  const Real t1095 = t1068 - t1086;
+  zdot[0] = model.c13 * (t1093 * (expression_64 * groundgo_3) - groundgy_x * t1094);
+  zdot[1] = -(model.c13 * (t1093 * (expression_67 * groundgo_3) + (groundgy_y * t1094 + groundgo_4 * t1095)));
+  zdot[2] = -(model.c13 * (groundgo_3 * t1093 + (groundgy_z * t1094 - (groundgz_z * t1095 - model.q_2))));
+  zdot[3] = model.c11 * (t449 * t1093 + (grounds1bn0_x * t1094 + (rdn0_x + grounds2bn0_x * t1095)));
+  zdot[4] = -(model.c12 * (grounds1bn0_y * t1094 + grounds2bn0_y * t1095));
+  zdot[5] = -(model.c11 * (t453 * t1093 + (grounds1bn0_z * t1094 + (rdn0_z + grounds2bn0_z * t1095))));
 }
 
 template <class Real> JOURDAIN_FUNCTION
@@ -934,17 +936,17 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real expression = state.y[0] * model.wave;
   Real expression_7, expression_2;
   detail::sine_cosine(expression, expression_7, expression_2);
-  const Real expression_3 = expression_2 * model.c7;
+  const Real expression_3 = expression_2 * model.c6;
   const Real expression_4 = model.wave * state.y[1];
   Real expression_10, expression_5;
   detail::sine_cosine(expression_4, expression_10, expression_5);
   const Real expression_6 = expression_3 * expression_5;
-  const Real expression_8 = expression_7 * (expression_5 * model.c8);
+  const Real expression_8 = expression_7 * (expression_5 * model.c7);
   const Real expression_9 = expression_7 * model.hill;
   const Real expression_11 = model.wave * expression_10;
   const Real expression_12 = expression_9 * expression_11;
   const Real expression_13 = expression_3 * expression_11;
-  const Real expression_14 = expression_9 * (expression_5 * model.c10);
+  const Real expression_14 = expression_9 * (expression_5 * model.c9);
   const Real groundg0e_x = groundgs_xy * expression_12 - (groundgs_xz + groundgs_xx * expression_6);
   const Real groundg0e_y = groundgs_yy * expression_12 + (groundgs_yz - groundgs_xy * expression_6);
   const Real groundg0u = expression_12 * (groundgs_yz + groundg0e_y) + (groundgs_zz + expression_6 *
@@ -977,17 +979,17 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real expression_15 = model.wave * groundgc;
   Real expression_21, expression_16;
   detail::sine_cosine(expression_15, expression_21, expression_16);
-  const Real expression_17 = model.c7 * expression_16;
+  const Real expression_17 = model.c6 * expression_16;
   const Real expression_18 = model.wave * groundgc_2;
   Real expression_24, expression_19;
   detail::sine_cosine(expression_18, expression_24, expression_19);
   const Real expression_20 = expression_17 * expression_19;
-  const Real expression_22 = expression_21 * (model.c8 * expression_19);
+  const Real expression_22 = expression_21 * (model.c7 * expression_19);
   const Real expression_23 = model.hill * expression_21;
   const Real expression_25 = model.wave * expression_24;
   const Real expression_26 = expression_23 * expression_25;
   const Real expression_27 = expression_17 * expression_25;
-  const Real expression_28 = expression_23 * (model.c10 * expression_19);
+  const Real expression_28 = expression_23 * (model.c9 * expression_19);
   const Real groundg1e_x = groundgs_xy * expression_26 + (groundgs_xz + groundgs_xx * expression_20);
   const Real groundg1e_y = groundgs_yy * expression_26 - (groundgs_yz - groundgs_xy * expression_20);
   const Real groundg1u = expression_26 * (groundgs_yz - groundg1e_y) - (groundgs_zz + expression_20 *
@@ -1020,17 +1022,17 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real expression_29 = model.wave * groundgc_3;
   Real expression_35, expression_30;
   detail::sine_cosine(expression_29, expression_35, expression_30);
-  const Real expression_31 = model.c7 * expression_30;
+  const Real expression_31 = model.c6 * expression_30;
   const Real expression_32 = model.wave * groundgc_4;
   Real expression_38, expression_33;
   detail::sine_cosine(expression_32, expression_38, expression_33);
   const Real expression_34 = expression_31 * expression_33;
-  const Real expression_36 = expression_35 * (model.c8 * expression_33);
+  const Real expression_36 = expression_35 * (model.c7 * expression_33);
   const Real expression_37 = model.hill * expression_35;
   const Real expression_39 = model.wave * expression_38;
   const Real expression_40 = expression_37 * expression_39;
   const Real expression_41 = expression_31 * expression_39;
-  const Real expression_42 = expression_37 * (model.c10 * expression_33);
+  const Real expression_42 = expression_37 * (model.c9 * expression_33);
   const Real groundg2e_x = groundgs_xy * expression_40 - (groundgs_xz + groundgs_xx * expression_34);
   const Real groundg2e_y = groundgs_yy * expression_40 + (groundgs_yz - groundgs_xy * expression_34);
   const Real groundg2u = expression_40 * (groundgs_yz + groundg2e_y) + (groundgs_zz + expression_34 *
@@ -1063,17 +1065,17 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real expression_43 = model.wave * groundgc_5;
   Real expression_49, expression_44;
   detail::sine_cosine(expression_43, expression_49, expression_44);
-  const Real expression_45 = model.c7 * expression_44;
+  const Real expression_45 = model.c6 * expression_44;
   const Real expression_46 = model.wave * groundgc_6;
   Real expression_52, expression_47;
   detail::sine_cosine(expression_46, expression_52, expression_47);
   const Real expression_48 = expression_45 * expression_47;
-  const Real expression_50 = expression_49 * (model.c8 * expression_47);
+  const Real expression_50 = expression_49 * (model.c7 * expression_47);
   const Real expression_51 = model.hill * expression_49;
   const Real expression_53 = model.wave * expression_52;
   const Real expression_54 = expression_51 * expression_53;
   const Real expression_55 = expression_45 * expression_53;
-  const Real expression_56 = expression_51 * (model.c10 * expression_47);
+  const Real expression_56 = expression_51 * (model.c9 * expression_47);
   const Real groundg3e_x = groundgs_xy * expression_54 + (groundgs_xz + groundgs_xx * expression_48);
   const Real groundg3e_y = groundgs_yy * expression_54 - (groundgs_yz - groundgs_xy * expression_48);
   const Real groundg3u = expression_54 * (groundgs_yz - groundg3e_y) - (groundgs_zz + expression_48 *
@@ -1111,7 +1113,7 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   Real expression_66, expression_61;
   detail::sine_cosine(expression_60, expression_66, expression_61);
   const Real expression_62 = expression_59 * expression_61;
-  const Real expression_64 = model.c7 * expression_63;
+  const Real expression_64 = model.c6 * expression_63;
   const Real expression_65 = expression_61 * expression_64;
   const Real expression_67 = model.wave * expression_66;
   const Real expression_68 = expression_59 * expression_67;
@@ -1187,17 +1189,17 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real t544 = grounds2bn0_z * model.c19;
   const Real t547 = t452 * t542 + t456 * t544;
   const Real t563 = Real(1.0) / (model.c19 * (t452 * t452 + t456 * t456) + (groundgo_3 * (groundgo_3 *
-      (groundgo_2 * model.c13)) + Real(5.501451103109343e-11)));
+      (groundgo_2 * model.c13)) + Real(4.9999999999999995e-11)));
   const Real t564 = t533 * t563;
   const Real t575 = t547 * t563;
   const Real t579 = t533 * t575 - (grounds1bn0_z * t544 + (grounds1bn0_x * t542 + grounds1bn0_y * t543));
   const Real t581 = Real(1.0) / (t533 * t564 - (grounds1bn0_x * t529 + (model.c13 * (groundgy_z * groundgy_z +
-      (groundgy_x * groundgy_x + groundgy_y * groundgy_y)) + Real(1.5042161762862643e-10)) + (grounds1bn0_y *
+      (groundgy_x * groundgy_x + groundgy_y * groundgy_y)) + Real(1.5000000000000002e-10)) + (grounds1bn0_y *
       (grounds1bn0_y * model.c12) + grounds1bn0_z * t530)));
   const Real t582 = t579 * t581;
   const Real t594 = Real(1.0) / (t579 * t582 - (t547 * t575 - (grounds2bn0_x * t542 + (groundgo_4 *
-      (groundgo_4 * (groundgo * model.c13)) + Real(2.445638713402802e-10)) + (grounds2bn0_y * t543 +
-      grounds2bn0_z * t544))));
+      (groundgo_4 * (groundgo * model.c13)) + Real(2.5e-10)) + (grounds2bn0_y * t543 + grounds2bn0_z *
+      t544))));
   const Real t595 = g_ground * t564;
   const Real t601 = t594 * (g_ground * t575 - t582 * t595);
   const Real t603 = t581 * t595 + t582 * t601;
@@ -1244,17 +1246,17 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real expression_69 = model.wave * t640;
   Real expression_75, expression_70;
   detail::sine_cosine(expression_69, expression_75, expression_70);
-  const Real expression_71 = model.c7 * expression_70;
+  const Real expression_71 = model.c6 * expression_70;
   const Real expression_72 = model.wave * t641;
   Real expression_78, expression_73;
   detail::sine_cosine(expression_72, expression_78, expression_73);
   const Real expression_74 = expression_71 * expression_73;
-  const Real expression_76 = expression_75 * (model.c8 * expression_73);
+  const Real expression_76 = expression_75 * (model.c7 * expression_73);
   const Real expression_77 = model.hill * expression_75;
   const Real expression_79 = model.wave * expression_78;
   const Real expression_80 = expression_77 * expression_79;
   const Real expression_81 = expression_71 * expression_79;
-  const Real expression_82 = expression_77 * (model.c10 * expression_73);
+  const Real expression_82 = expression_77 * (model.c9 * expression_73);
   const Real groundg0e_x_2 = groundgs_xy_2 * expression_80 + (groundgs_xz_2 + groundgs_xx_2 * expression_74);
   const Real groundg0e_y_2 = groundgs_yy_2 * expression_80 - (groundgs_yz_2 - groundgs_xy_2 * expression_74);
   const Real groundg0u_2 = expression_80 * (groundgs_yz_2 - groundg0e_y_2) - (groundgs_zz_2 + expression_74 *
@@ -1287,17 +1289,17 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real expression_83 = model.wave * groundgc_9;
   Real expression_89, expression_84;
   detail::sine_cosine(expression_83, expression_89, expression_84);
-  const Real expression_85 = model.c7 * expression_84;
+  const Real expression_85 = model.c6 * expression_84;
   const Real expression_86 = model.wave * groundgc_10;
   Real expression_92, expression_87;
   detail::sine_cosine(expression_86, expression_92, expression_87);
   const Real expression_88 = expression_85 * expression_87;
-  const Real expression_90 = expression_89 * (model.c8 * expression_87);
+  const Real expression_90 = expression_89 * (model.c7 * expression_87);
   const Real expression_91 = model.hill * expression_89;
   const Real expression_93 = model.wave * expression_92;
   const Real expression_94 = expression_91 * expression_93;
   const Real expression_95 = expression_85 * expression_93;
-  const Real expression_96 = expression_91 * (model.c10 * expression_87);
+  const Real expression_96 = expression_91 * (model.c9 * expression_87);
   const Real groundg1e_x_2 = groundgs_xy_2 * expression_94 - (groundgs_xz_2 + groundgs_xx_2 * expression_88);
   const Real groundg1e_y_2 = groundgs_yy_2 * expression_94 + (groundgs_yz_2 - groundgs_xy_2 * expression_88);
   const Real groundg1u_2 = expression_94 * (groundgs_yz_2 + groundg1e_y_2) + (groundgs_zz_2 + expression_88 *
@@ -1330,17 +1332,17 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real expression_97 = model.wave * groundgc_11;
   Real expression_103, expression_98;
   detail::sine_cosine(expression_97, expression_103, expression_98);
-  const Real expression_99 = model.c7 * expression_98;
+  const Real expression_99 = model.c6 * expression_98;
   const Real expression_100 = model.wave * groundgc_12;
   Real expression_106, expression_101;
   detail::sine_cosine(expression_100, expression_106, expression_101);
   const Real expression_102 = expression_99 * expression_101;
-  const Real expression_104 = expression_103 * (model.c8 * expression_101);
+  const Real expression_104 = expression_103 * (model.c7 * expression_101);
   const Real expression_105 = model.hill * expression_103;
   const Real expression_107 = model.wave * expression_106;
   const Real expression_108 = expression_105 * expression_107;
   const Real expression_109 = expression_99 * expression_107;
-  const Real expression_110 = expression_105 * (model.c10 * expression_101);
+  const Real expression_110 = expression_105 * (model.c9 * expression_101);
   const Real groundg2e_x_2 = groundgs_xy_2 * expression_108 + (groundgs_xz_2 + groundgs_xx_2 *
       expression_102);
   const Real groundg2e_y_2 = groundgs_yy_2 * expression_108 - (groundgs_yz_2 - groundgs_xy_2 *
@@ -1375,17 +1377,17 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real expression_111 = model.wave * groundgc_13;
   Real expression_117, expression_112;
   detail::sine_cosine(expression_111, expression_117, expression_112);
-  const Real expression_113 = model.c7 * expression_112;
+  const Real expression_113 = model.c6 * expression_112;
   const Real expression_114 = model.wave * groundgc_14;
   Real expression_120, expression_115;
   detail::sine_cosine(expression_114, expression_120, expression_115);
   const Real expression_116 = expression_113 * expression_115;
-  const Real expression_118 = expression_117 * (model.c8 * expression_115);
+  const Real expression_118 = expression_117 * (model.c7 * expression_115);
   const Real expression_119 = model.hill * expression_117;
   const Real expression_121 = model.wave * expression_120;
   const Real expression_122 = expression_119 * expression_121;
   const Real expression_123 = expression_113 * expression_121;
-  const Real expression_124 = expression_119 * (model.c10 * expression_115);
+  const Real expression_124 = expression_119 * (model.c9 * expression_115);
   const Real groundg3e_x_2 = groundgs_xy_2 * expression_122 - (groundgs_xz_2 + groundgs_xx_2 *
       expression_116);
   const Real groundg3e_y_2 = groundgs_yy_2 * expression_122 + (groundgs_yz_2 - groundgs_xy_2 *
@@ -1423,8 +1425,8 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   const Real expression_127 = model.wave * groundgc_16;
   Real expression_131, expression_128;
   detail::sine_cosine(expression_127, expression_131, expression_128);
-  const Real expression_130 = expression_129 * (model.c7 * expression_128);
-  const Real expression_132 = expression_131 * (model.c7 * expression_126);
+  const Real expression_130 = expression_129 * (model.c6 * expression_128);
+  const Real expression_132 = expression_131 * (model.c6 * expression_126);
   const Real groundgge_x_2 = groundgs_xy_2 * expression_132 + (groundgs_xz_2 + groundgs_xx_2 *
       expression_130);
   const Real groundgge_y_2 = groundgs_yy_2 * expression_132 - (groundgs_yz_2 - groundgs_xy_2 *
@@ -1497,9 +1499,9 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
       state.z[5]))));
   const Real t1225 = t581 * t1212 - t582 * t1223;
   const Real t1229 = t564 * t1225 - (t563 * t1194 - t575 * t1223);
-  const Real expression_133 = expression_61 * (model.c8 * expression_58);
+  const Real expression_133 = expression_61 * (model.c7 * expression_58);
   const Real expression_134 = expression_64 * expression_67;
-  const Real expression_135 = model.c10 * expression_62;
+  const Real expression_135 = model.c9 * expression_62;
   const Real groundggl = model.radius * groundggi;
   const Real groundggp = groundgs_xx - groundggq_x * groundggq_x;
   const Real groundggp_2 = groundgs_xy - groundggq_x * groundggq_y;
@@ -1525,7 +1527,7 @@ void project(const Model<Real>& model, State<Real>& state) noexcept {
   closed.z[3] = state.z[3] + model.c19 * (t452 * t1229 - (grounds1bn0_x * t1225 + grounds2bn0_x * t1223));
   closed.z[4] = state.z[4] + model.c12 * (grounds1bn0_y * t1225 + grounds2bn0_y * t1223);
   closed.z[5] = state.z[5] - model.c19 * (t456 * t1229 - (grounds1bn0_z * t1225 + grounds2bn0_z * t1223));
-  closed.regularity = -(Real(1.0) / (t594 * (t563 * t581)) * Real(0.5333333333333332));
+  closed.regularity = -(Real(1.0) / (t594 * (t563 * t581)) * Real(0.5333333333333331));
   closed.opening = t637 * t637 + t639 * t639 + (t634 * t634 + (t638 * t638 +
       (detail::where_negative(groundggt, Real(1.0)) + (detail::where_negative(groundggj + groundggj_2,
       Real(1.0)) + (groundgm * groundgm + groundgm_2 * groundgm_2)))) + (t635 * t635 + t636 * t636));
@@ -1554,7 +1556,7 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real q003 = q0d3 * state.y[3];
   const Real q0r0_y = q012 - q003;
   const Real groundgs_xy = q0r0_y * q0r1_y;
-  const Real expression_3 = expression_2 * model.c7;
+  const Real expression_3 = expression_2 * model.c6;
   const Real expression_6 = expression_3 * expression_5;
   const Real groundgs_yy = Real(1.0) - q0r1_y * q0r1_y;
   const Real expression_8 = expression_7 * model.hill;
@@ -1571,7 +1573,7 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real groundg0i = Real(1.0) / groundg0r;
   const Real groundg0q_x = groundg0e_x * groundg0i;
   const Real groundg0p = groundgs_xx - groundg0q_x * groundg0q_x;
-  const Real expression_12 = expression_7 * (expression_5 * model.c8);
+  const Real expression_12 = expression_7 * (expression_5 * model.c7);
   const Real groundg0q_y = groundg0e_y * groundg0i;
   const Real groundg0p_2 = groundgs_xy - groundg0q_x * groundg0q_y;
   const Real expression_13 = expression_3 * expression_10;
@@ -1580,7 +1582,7 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real groundg0l = groundg0i * model.radius;
   const Real groundg0j = Real(1.0) + groundg0l * groundg0k;
   const Real groundg0p_3 = groundgs_yy - groundg0q_y * groundg0q_y;
-  const Real expression_14 = expression_8 * (expression_5 * model.c10);
+  const Real expression_14 = expression_8 * (expression_5 * model.c9);
   const Real groundg0k_2 = t71 + expression_14 * groundg0p_3;
   const Real groundg0j_2 = Real(1.0) + groundg0l * groundg0k_2;
   const Real groundg0k_3 = expression_13 * groundg0p + expression_14 * groundg0p_2;
@@ -1604,7 +1606,7 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   detail::sine_cosine(expression_18, expression_19, expression_24);
   const Real expression_20 = model.wave * expression_19;
   const Real expression_21 = expression_17 * expression_20;
-  const Real expression_23 = model.c7 * expression_22;
+  const Real expression_23 = model.c6 * expression_22;
   const Real expression_25 = expression_23 * expression_24;
   const Real groundg1e_y = groundgs_yy * expression_21 - (groundgs_yz - groundgs_xy * expression_25);
   const Real groundg1e_x = groundgs_xy * expression_21 + (groundgs_xz + groundgs_xx * expression_25);
@@ -1614,7 +1616,7 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real groundg1i = Real(1.0) / groundg1r;
   const Real groundg1q_x = groundg1e_x * groundg1i;
   const Real groundg1p = groundgs_xx - groundg1q_x * groundg1q_x;
-  const Real expression_26 = expression_16 * (model.c8 * expression_24);
+  const Real expression_26 = expression_16 * (model.c7 * expression_24);
   const Real groundg1q_y = groundg1e_y * groundg1i;
   const Real groundg1p_2 = groundgs_xy - groundg1q_x * groundg1q_y;
   const Real expression_27 = expression_23 * expression_20;
@@ -1623,7 +1625,7 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real groundg1l = model.radius * groundg1i;
   const Real groundg1j = Real(1.0) + groundg1l * groundg1k;
   const Real groundg1p_3 = groundgs_yy - groundg1q_y * groundg1q_y;
-  const Real expression_28 = expression_17 * (model.c10 * expression_24);
+  const Real expression_28 = expression_17 * (model.c9 * expression_24);
   const Real groundg1k_2 = t150 - expression_28 * groundg1p_3;
   const Real groundg1j_2 = Real(1.0) - groundg1l * groundg1k_2;
   const Real groundg1k_3 = expression_27 * groundg1p - expression_28 * groundg1p_2;
@@ -1647,7 +1649,7 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   detail::sine_cosine(expression_32, expression_33, expression_38);
   const Real expression_34 = model.wave * expression_33;
   const Real expression_35 = expression_31 * expression_34;
-  const Real expression_37 = model.c7 * expression_36;
+  const Real expression_37 = model.c6 * expression_36;
   const Real expression_39 = expression_37 * expression_38;
   const Real groundg2e_y = groundgs_yy * expression_35 + (groundgs_yz - groundgs_xy * expression_39);
   const Real groundg2e_x = groundgs_xy * expression_35 - (groundgs_xz + groundgs_xx * expression_39);
@@ -1657,7 +1659,7 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real groundg2i = Real(1.0) / groundg2r;
   const Real groundg2q_x = groundg2e_x * groundg2i;
   const Real groundg2p = groundgs_xx - groundg2q_x * groundg2q_x;
-  const Real expression_40 = expression_30 * (model.c8 * expression_38);
+  const Real expression_40 = expression_30 * (model.c7 * expression_38);
   const Real groundg2q_y = groundg2e_y * groundg2i;
   const Real groundg2p_2 = groundgs_xy - groundg2q_x * groundg2q_y;
   const Real expression_41 = expression_37 * expression_34;
@@ -1666,7 +1668,7 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real groundg2l = model.radius * groundg2i;
   const Real groundg2j = Real(1.0) + groundg2l * groundg2k;
   const Real groundg2p_3 = groundgs_yy - groundg2q_y * groundg2q_y;
-  const Real expression_42 = expression_31 * (model.c10 * expression_38);
+  const Real expression_42 = expression_31 * (model.c9 * expression_38);
   const Real groundg2k_2 = t230 + expression_42 * groundg2p_3;
   const Real groundg2j_2 = Real(1.0) + groundg2l * groundg2k_2;
   const Real groundg2k_3 = expression_41 * groundg2p + expression_42 * groundg2p_2;
@@ -1690,7 +1692,7 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   detail::sine_cosine(expression_46, expression_47, expression_52);
   const Real expression_48 = model.wave * expression_47;
   const Real expression_49 = expression_45 * expression_48;
-  const Real expression_51 = model.c7 * expression_50;
+  const Real expression_51 = model.c6 * expression_50;
   const Real expression_53 = expression_51 * expression_52;
   const Real groundg3e_y = groundgs_yy * expression_49 - (groundgs_yz - groundgs_xy * expression_53);
   const Real groundg3e_x = groundgs_xy * expression_49 + (groundgs_xz + groundgs_xx * expression_53);
@@ -1700,7 +1702,7 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real groundg3i = Real(1.0) / groundg3r;
   const Real groundg3q_x = groundg3e_x * groundg3i;
   const Real groundg3p = groundgs_xx - groundg3q_x * groundg3q_x;
-  const Real expression_54 = expression_44 * (model.c8 * expression_52);
+  const Real expression_54 = expression_44 * (model.c7 * expression_52);
   const Real groundg3q_y = groundg3e_y * groundg3i;
   const Real groundg3p_2 = groundgs_xy - groundg3q_x * groundg3q_y;
   const Real expression_55 = expression_51 * expression_48;
@@ -1709,7 +1711,7 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   const Real groundg3l = model.radius * groundg3i;
   const Real groundg3j = Real(1.0) + groundg3l * groundg3k;
   const Real groundg3p_3 = groundgs_yy - groundg3q_y * groundg3q_y;
-  const Real expression_56 = expression_45 * (model.c10 * expression_52);
+  const Real expression_56 = expression_45 * (model.c9 * expression_52);
   const Real groundg3k_2 = t311 - expression_56 * groundg3p_3;
   const Real groundg3j_2 = Real(1.0) - groundg3l * groundg3k_2;
   const Real groundg3k_3 = expression_55 * groundg3p - expression_56 * groundg3p_2;
@@ -1732,7 +1734,7 @@ void constraint_residual(const Model<Real>& model, const State<Real>& state, Rea
   Real expression_61, expression_64;
   detail::sine_cosine(expression_60, expression_61, expression_64);
   const Real expression_62 = expression_59 * (model.wave * expression_61);
-  const Real expression_65 = expression_63 * (model.c7 * expression_64);
+  const Real expression_65 = expression_63 * (model.c6 * expression_64);
   const Real groundgge_z = groundgs_yz * expression_62 + (groundgs_zz + groundgs_xz * expression_65);
   const Real groundgge_x = groundgs_xy * expression_62 - (groundgs_xz + groundgs_xx * expression_65);
   const Real groundgge_y = groundgs_yy * expression_62 + (groundgs_yz - groundgs_xy * expression_65);
@@ -1832,14 +1834,14 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real groundgs_yy = Real(1.0) - q0r1_y * q0r1_y;
   const Real groundgs_yz = q0r1_y * q0r2_y;
   const Real groundgs_zz = Real(1.0) - q0r2_y * q0r2_y;
-  const Real expression_3 = expression_2 * model.c7;
+  const Real expression_3 = expression_2 * model.c6;
   const Real expression_6 = expression_3 * expression_5;
-  const Real expression_8 = expression_7 * (expression_5 * model.c8);
+  const Real expression_8 = expression_7 * (expression_5 * model.c7);
   const Real expression_9 = expression_7 * model.hill;
   const Real expression_11 = model.wave * expression_10;
   const Real expression_12 = expression_9 * expression_11;
   const Real expression_13 = expression_3 * expression_11;
-  const Real expression_14 = expression_9 * (expression_5 * model.c10);
+  const Real expression_14 = expression_9 * (expression_5 * model.c9);
   const Real groundg0e_x = groundgs_xy * expression_12 - (groundgs_xz + groundgs_xx * expression_6);
   const Real groundg0e_y = groundgs_yy * expression_12 + (groundgs_yz - groundgs_xy * expression_6);
   const Real groundg0u = expression_12 * (groundgs_yz + groundg0e_y) + (groundgs_zz + expression_6 *
@@ -1872,17 +1874,17 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real expression_15 = model.wave * groundgc;
   Real expression_21, expression_16;
   detail::sine_cosine(expression_15, expression_21, expression_16);
-  const Real expression_17 = model.c7 * expression_16;
+  const Real expression_17 = model.c6 * expression_16;
   const Real expression_18 = model.wave * groundgc_2;
   Real expression_24, expression_19;
   detail::sine_cosine(expression_18, expression_24, expression_19);
   const Real expression_20 = expression_17 * expression_19;
-  const Real expression_22 = expression_21 * (model.c8 * expression_19);
+  const Real expression_22 = expression_21 * (model.c7 * expression_19);
   const Real expression_23 = model.hill * expression_21;
   const Real expression_25 = model.wave * expression_24;
   const Real expression_26 = expression_23 * expression_25;
   const Real expression_27 = expression_17 * expression_25;
-  const Real expression_28 = expression_23 * (model.c10 * expression_19);
+  const Real expression_28 = expression_23 * (model.c9 * expression_19);
   const Real groundg1e_x = groundgs_xy * expression_26 + (groundgs_xz + groundgs_xx * expression_20);
   const Real groundg1e_y = groundgs_yy * expression_26 - (groundgs_yz - groundgs_xy * expression_20);
   const Real groundg1u = expression_26 * (groundgs_yz - groundg1e_y) - (groundgs_zz + expression_20 *
@@ -1915,17 +1917,17 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real expression_29 = model.wave * groundgc_3;
   Real expression_35, expression_30;
   detail::sine_cosine(expression_29, expression_35, expression_30);
-  const Real expression_31 = model.c7 * expression_30;
+  const Real expression_31 = model.c6 * expression_30;
   const Real expression_32 = model.wave * groundgc_4;
   Real expression_38, expression_33;
   detail::sine_cosine(expression_32, expression_38, expression_33);
   const Real expression_34 = expression_31 * expression_33;
-  const Real expression_36 = expression_35 * (model.c8 * expression_33);
+  const Real expression_36 = expression_35 * (model.c7 * expression_33);
   const Real expression_37 = model.hill * expression_35;
   const Real expression_39 = model.wave * expression_38;
   const Real expression_40 = expression_37 * expression_39;
   const Real expression_41 = expression_31 * expression_39;
-  const Real expression_42 = expression_37 * (model.c10 * expression_33);
+  const Real expression_42 = expression_37 * (model.c9 * expression_33);
   const Real groundg2e_x = groundgs_xy * expression_40 - (groundgs_xz + groundgs_xx * expression_34);
   const Real groundg2e_y = groundgs_yy * expression_40 + (groundgs_yz - groundgs_xy * expression_34);
   const Real groundg2u = expression_40 * (groundgs_yz + groundg2e_y) + (groundgs_zz + expression_34 *
@@ -1958,17 +1960,17 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real expression_43 = model.wave * groundgc_5;
   Real expression_49, expression_44;
   detail::sine_cosine(expression_43, expression_49, expression_44);
-  const Real expression_45 = model.c7 * expression_44;
+  const Real expression_45 = model.c6 * expression_44;
   const Real expression_46 = model.wave * groundgc_6;
   Real expression_52, expression_47;
   detail::sine_cosine(expression_46, expression_52, expression_47);
   const Real expression_48 = expression_45 * expression_47;
-  const Real expression_50 = expression_49 * (model.c8 * expression_47);
+  const Real expression_50 = expression_49 * (model.c7 * expression_47);
   const Real expression_51 = model.hill * expression_49;
   const Real expression_53 = model.wave * expression_52;
   const Real expression_54 = expression_51 * expression_53;
   const Real expression_55 = expression_45 * expression_53;
-  const Real expression_56 = expression_51 * (model.c10 * expression_47);
+  const Real expression_56 = expression_51 * (model.c9 * expression_47);
   const Real groundg3e_x = groundgs_xy * expression_54 + (groundgs_xz + groundgs_xx * expression_48);
   const Real groundg3e_y = groundgs_yy * expression_54 - (groundgs_yz - groundgs_xy * expression_48);
   const Real groundg3u = expression_54 * (groundgs_yz - groundg3e_y) - (groundgs_zz + expression_48 *
@@ -2005,7 +2007,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real expression_60 = model.wave * groundgc_8;
   Real expression_65, expression_61;
   detail::sine_cosine(expression_60, expression_65, expression_61);
-  const Real expression_63 = model.c7 * expression_62;
+  const Real expression_63 = model.c6 * expression_62;
   const Real expression_64 = expression_61 * expression_63;
   const Real expression_66 = model.wave * expression_65;
   const Real expression_67 = expression_59 * expression_66;
@@ -2035,12 +2037,15 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t404 = expression_67 + expression_67;
   const Real t406 = q0r1_y * t404;
   const Real t407 = t402 + t402;
+  const Real t411 = q0r0_y * t407 - (q0r2_y * t404 - expression_67 * t406);
   const Real t413 = expression_64 + expression_64;
+  const Real t416 = q0r1_y * t407 + (t384 * t393 - q0r2_y * t413);
   const Real t417 = q0r0_y * t413;
   const Real t418 = t395 - t406;
-  const Real t420 = t399 * (q0r0_y * t407 - (q0r2_y * t404 - expression_67 * t406));
-  const Real t421 = t399 * (q0r1_y * t407 + (t384 * t393 - q0r2_y * t413));
-  const Real t422 = t399 * (t417 - t418);
+  const Real t419 = t417 - t418;
+  const Real t420 = t399 * t411;
+  const Real t421 = t399 * t416;
+  const Real t422 = t399 * t419;
   const Real t423 = q0d1 + q0d1;
   const Real t430 = q0d3 * t422 - q0d1 * t421;
   const Real t435 = q0d1 * t422 + q0d3 * t421;
@@ -2092,23 +2097,23 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t550 = t449 * t545 + t453 * t547;
   const Real t554 = groundgo_4 * groundgo_4;
   const Real t566 = Real(1.0) / (model.c11 * (t449 * t449 + t453 * t453) + (t528 * (groundgo_2 * model.c13) +
-      Real(5.501451103109343e-11)));
+      Real(4.9999999999999995e-11)));
   const Real t567 = t536 * t566;
   const Real t578 = t550 * t566;
   const Real t582 = t536 * t578 - (grounds1bn0_z * t547 + (grounds1bn0_x * t545 + grounds1bn0_y * t546));
   const Real t584 = Real(1.0) / (t536 * t567 - (grounds1bn0_x * t532 + (model.c13 * (groundgy_z * groundgy_z +
-      (groundgy_x * groundgy_x + groundgy_y * groundgy_y)) + Real(1.5042161762862643e-10)) + (grounds1bn0_y *
+      (groundgy_x * groundgy_x + groundgy_y * groundgy_y)) + Real(1.5000000000000002e-10)) + (grounds1bn0_y *
       (grounds1bn0_y * model.c12) + grounds1bn0_z * t533)));
   const Real t585 = t582 * t584;
   const Real t596 = Real(1.0) / (t582 * t585 - (t550 * t578 - (grounds2bn0_x * t545 + (t554 * (groundgo *
-      model.c13) + Real(2.445638713402802e-10)) + (grounds2bn0_y * t546 + grounds2bn0_z * t547))));
+      model.c13) + Real(2.5e-10)) + (grounds2bn0_y * t546 + grounds2bn0_z * t547))));
   const Real t601 = t392 * state.z[5] + (t390 * state.z[3] + t391 * state.z[4]);
   const Real t606 = t391 * state.z[5] + (t389 * state.z[3] - t392 * state.z[4]);
   const Real t611 = t390 * state.z[5] - (t392 * state.z[3] + t389 * state.z[4]);
   const Real t616 = t389 * state.z[5] - (t391 * state.z[3] - t390 * state.z[4]);
   const Real expression_68 = expression_61 * (expression_58 * model.c14);
   const Real expression_69 = expression_63 * expression_66;
-  const Real expression_70 = expression_59 * (model.c10 * expression_61);
+  const Real expression_70 = expression_59 * (model.c9 * expression_61);
   const Real groundggl = model.radius * groundggi;
   const Real groundggp = groundgs_xx - groundggq_x * groundggq_x;
   const Real groundggp_2 = groundgs_xy - groundggq_x * groundggq_y;
@@ -2140,8 +2145,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t681 = t395 * t671;
   const Real t683 = t406 * t662 + (expression_64 * t673 - t680);
   const Real t688 = t417 * t668 + (expression_67 * t673 - t678);
-  const Real t694 = expression_67 * (t680 - t683) + (t681 + expression_64 * (t678 - t688));
-  const Real t697 = t651 * (t397 * t694);
+  const Real t697 = t651 * (t397 * (expression_67 * (t680 - t683) + (t681 + expression_64 * (t678 - t688))));
   const Real t703 = state.z[1] + model.radius * (groundggi * t683 + groundgge_y * t697);
   const Real t705 = state.z[0] - model.radius * (groundggi * t688 - groundgge_x * t697);
   const Real t710 = groundggd * (groundggj_4 * t705) - groundggd * (groundggj_2 * t703);
@@ -2171,59 +2175,59 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real t851 = t660 + t670;
   const Real t859 = groundgv_x * groundgz_z;
   const Real t865 = t656 + t667;
-  const Real t880 = t394 * t721 - t404 * t662;
-  const Real t894 = groundgs_xy * t719 + (t683 + groundgs_yy * t721);
-  const Real t901 = groundgs_xz * t719 - (groundgs_yz * t721 - (expression_64 * t678 + (t681 + expression_67 *
+  const Real t882 = t394 * t721 - t404 * t662;
+  const Real t899 = groundgs_xy * t719 + (t683 + groundgs_yy * t721);
+  const Real t906 = groundgs_xz * t719 - (groundgs_yz * t721 - (expression_64 * t678 + (t681 + expression_67 *
       t680)));
-  const Real t904 = groundgs_xx * t719 - (t688 - groundgs_xy * t721);
-  const Real t911 = t397 * (t901 - (groundgge_y * t721 + groundgge_x * t719) - (expression_67 * t894 -
-      expression_64 * t904));
-  const Real t917 = t651 * t911;
-  const Real t928 = t846 - t850;
-  const Real t929 = t846 + t850;
-  const Real t939 = groundggl * t904 + t917 * (model.radius * groundgge_x);
-  const Real t941 = groundggl * t901 - t474 * t917;
-  const Real t946 = t653 - t838;
-  const Real t947 = t658 - t838;
-  const Real t958 = model.radius * (groundggi * t894 + groundgge_y * t917);
-  const Real t989 = model.c20 * (state.z[4] * state.z[5]);
-  const Real t991 = model.c20 * (state.z[3] * state.z[4]);
-  const Real t1002 = t611 * t823 - t601 * t822;
-  const Real t1009 = t601 * t823 + t611 * t822;
-  const Real t1027 = t694 * (t398 * t751 - t911 * (t397 * (groundggi * (model.radius * groundgo_3)))) +
-      (state.z[0] * (groundgo_3 * t719 + expression_64 * t751) + (expression_67 * t880 + (t393 * t743 - (t418
-      * t721 + (t404 * t671 + t407 * t668)))) * (t399 * t662) + ((t394 * t743 - (t393 * t740 - (t395 * t719 -
-      (t407 * t662 + (t413 * t671 + t384 * (Real(2.0) * t668)))))) * (t399 * t668) + (t880 - (t393 * t719 +
-      (Real(2.0) * t671 + t413 * t668))) * (t399 * t671) + (state.z[1] * (groundgo_3 * t721 - expression_67 *
-      t751) - (state.z[2] * t751 - (t616 * (Real(0.5) * (t430 * state.z[3] + t440 * state.z[4]) - (t616 * t829
-      + t1009 + (state.z[5] * t810 + t1009))) + (groundgo_3 * model.c15 + t449 * t989) + (t611 * (state.z[5] *
-      t812 + (state.z[4] * t810 - state.z[3] * t811)) + t453 * t991 + (t601 * (state.z[5] * t811 + (state.z[3]
-      * t812 - state.z[4] * t809)) - t606 * (state.z[5] * t809 + (t606 * t829 - t1002) + (state.z[4] * t811 +
-      (state.z[3] * t810 - t1002))))))))));
-  const Real t1046 = (groundgy_z * t786 - groundgy_x * t794) * t958 + (groundgy_y * t786 - groundgy_x * t781)
-      * t941 - (t567 * t1027 + ((groundgy_z * t781 - groundgy_y * t794) * t939 + ((groundgo_5 * t719 +
-      expression_64 * t760) * t789 - (grounds1bn0_x * t989 - (t478 * (state.z[3] * t929) - t486 * (state.z[3]
-      * t947) - (t482 * (state.z[3] * t865) - t482 * (state.z[5] * t851))) + (grounds1bn0_z * t991 + (t486 *
-      (state.z[5] * t928) + t478 * (state.z[5] * t946) + (t478 * (state.z[4] * t671) + groundgy_z * model.c15
+  const Real t909 = groundgs_xx * t719 - (t688 - groundgs_xy * t721);
+  const Real t916 = t397 * (t906 - (groundgge_y * t721 + groundgge_x * t719) - (expression_67 * t899 -
+      expression_64 * t909));
+  const Real t922 = t651 * t916;
+  const Real t933 = t846 - t850;
+  const Real t934 = t846 + t850;
+  const Real t944 = groundggl * t909 + t922 * (model.radius * groundgge_x);
+  const Real t946 = groundggl * t906 - t474 * t922;
+  const Real t951 = t653 - t838;
+  const Real t952 = t658 - t838;
+  const Real t963 = model.radius * (groundggi * t899 + groundgge_y * t922);
+  const Real t994 = model.c20 * (state.z[4] * state.z[5]);
+  const Real t996 = model.c20 * (state.z[3] * state.z[4]);
+  const Real t1007 = t611 * t823 - t601 * t822;
+  const Real t1014 = t601 * t823 + t611 * t822;
+  const Real t1032 = (t411 * t662 + (t416 * t668 + t419 * t671)) * (t398 * t751 - t916 * (t397 * (groundggi *
+      (model.radius * groundgo_3)))) - (state.z[0] * (groundgo_3 * t719 + expression_64 * t751) +
+      (expression_67 * t882 + (t393 * t743 - (t418 * t721 + (t404 * t671 + t407 * t668)))) * (t399 * t662) +
+      ((t394 * t743 - (t393 * t740 - (t395 * t719 - (t407 * t662 + (t413 * t671 + t384 * (Real(2.0) *
+      t668)))))) * (t399 * t668) + (t882 - (t393 * t719 + (Real(2.0) * t671 + t413 * t668))) * (t399 * t671) +
+      (state.z[1] * (groundgo_3 * t721 - expression_67 * t751) - (state.z[2] * t751 - (t616 * (Real(0.5) *
+      (t430 * state.z[3] + t440 * state.z[4]) - (t616 * t829 + t1014 + (state.z[5] * t810 + t1014))) +
+      (groundgo_3 * model.c15 + t449 * t994) + (t611 * (state.z[5] * t812 + (state.z[4] * t810 - state.z[3] *
+      t811)) + t453 * t996 + (t601 * (state.z[5] * t811 + (state.z[3] * t812 - state.z[4] * t809)) - t606 *
+      (state.z[5] * t809 + (t606 * t829 - t1007) + (state.z[4] * t811 + (state.z[3] * t810 - t1007))))))))));
+  const Real t1051 = (groundgy_z * t786 - groundgy_x * t794) * t963 + (groundgy_y * t786 - groundgy_x * t781)
+      * t946 + (t567 * t1032 - ((groundgy_z * t781 - groundgy_y * t794) * t944 + ((groundgo_5 * t719 +
+      expression_64 * t760) * t789 - (grounds1bn0_x * t994 - (t478 * (state.z[3] * t934) - t486 * (state.z[3]
+      * t952) - (t482 * (state.z[3] * t865) - t482 * (state.z[5] * t851))) + (grounds1bn0_z * t996 + (t486 *
+      (state.z[5] * t933) + t478 * (state.z[5] * t951) + (t478 * (state.z[4] * t671) + groundgy_z * model.c15
       - (t482 * (state.z[4] * t662) + t486 * (state.z[4] * t668)))))) + ((t402 * t760 - groundgo_5 * t743) *
       (groundgv_x * t794 + (state.z[1] - groundgv_z * t786)) + (groundgo_5 * t726 - groundgo * t760) *
       (groundgv_y * t794 - (state.z[0] + groundgv_z * t781))))));
-  const Real t1061 = t596 * (t786 * (groundgz_z * t958 - (groundgv_z * t734 + groundgo_4 * t941)) +
-      (state.z[3] * (t507 * t939 - (groundgv_x * (q0r2_x * t734 + groundgo_4 * t929) + (t503 * t947 + t859 *
-      t865))) + state.z[5] * (t519 * t939 + (groundgv_x * (q0r2_z * t734 + groundgo_4 * t946) + (t851 * t859 -
-      t503 * t928)))) + (t585 * t1046 - (state.z[4] * (t513 * t939 + (groundgv_x * (q0r2_y * t734 - groundgo_4
-      * t671) - (t662 * t859 + t503 * t668))) - (t578 * t1027 + ((groundgo_4 * t721 - expression_67 * t734) *
-      t789 + (state.z[1] * t734 - (grounds2bn0_z * t991 - (groundgz_z * model.c15 - grounds2bn0_x *
-      t989))))))));
-  const Real t1063 = t584 * t1046 - t585 * t1061;
-  const Real t1067 = t567 * t1063 + (t566 * t1027 + t578 * t1061);
-  const Real t1068 = Real(5.501451103109343e-11) * t1067;
-  const Real t1072 = Real(1.5042161762862643e-10) * t1063 + t567 * t1068;
-  const Real t1079 = t596 * (t585 * t1072 - (Real(2.445638713402802e-10) * t1061 + t578 * t1068));
-  const Real t1081 = t584 * t1072 - t585 * t1079;
-  lambda[0] = t567 * t1081 + (t578 * t1079 - (t1067 + t566 * t1068));
-  lambda[1] = t1063 - t1081;
-  lambda[2] = t1061 - t1079;
+  const Real t1066 = t596 * (t786 * (groundgz_z * t963 - (groundgv_z * t734 + groundgo_4 * t946)) +
+      (state.z[3] * (t507 * t944 - (groundgv_x * (q0r2_x * t734 + groundgo_4 * t934) + (t503 * t952 + t859 *
+      t865))) + state.z[5] * (t519 * t944 + (groundgv_x * (q0r2_z * t734 + groundgo_4 * t951) + (t851 * t859 -
+      t503 * t933)))) + (t585 * t1051 - (state.z[4] * (t513 * t944 + (groundgv_x * (q0r2_y * t734 - groundgo_4
+      * t671) - (t662 * t859 + t503 * t668))) + (t578 * t1032 - ((groundgo_4 * t721 - expression_67 * t734) *
+      t789 + (state.z[1] * t734 - (grounds2bn0_z * t996 - (groundgz_z * model.c15 - grounds2bn0_x *
+      t994))))))));
+  const Real t1068 = t584 * t1051 - t585 * t1066;
+  const Real t1072 = t567 * t1068 - (t566 * t1032 - t578 * t1066);
+  const Real t1073 = Real(4.9999999999999995e-11) * t1072;
+  const Real t1077 = Real(1.5000000000000002e-10) * t1068 + t567 * t1073;
+  const Real t1084 = t596 * (t585 * t1077 - (Real(2.5e-10) * t1066 + t578 * t1073));
+  const Real t1086 = t584 * t1077 - t585 * t1084;
+  lambda[0] = t567 * t1086 + (t578 * t1084 - (t1072 + t566 * t1073));
+  lambda[1] = t1068 - t1086;
+  lambda[2] = t1066 - t1084;
 }
 
 template <class Real> JOURDAIN_FUNCTION

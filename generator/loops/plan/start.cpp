@@ -113,8 +113,6 @@ class StartSearch {
     const Configuration initial{0, initial_.y},
         kept = closure_.assembled(initial, all_but(independent_, given));
     if (take_where_it_starts(kept)) return true;
-    const bool moves_given = !given.empty() && !is_closed(kept);
-    if (moves_given && find_beside(initial, given, given)) return true;
     if (take_where_it_starts(closure_.assembled(kept, all_but(independent_, {}))) ||
         take_where_it_starts(closure_.assembled(initial, all_but(independent_, {}))))
       return true;
@@ -122,8 +120,8 @@ class StartSearch {
     const Configuration nearest = start_.configuration;
     if (is_closed(nearest) && !report_reversed()) return false;
     if (is_closed(initial)) return true;  // as given, wherever its ranges are
-    if (!moves_given && find_beside(initial, given, given)) return true;
-    if (!given.empty() && find_beside(initial, given, {})) return true;
+    if (find_beside(initial, given, given) || (!given.empty() && find_beside(initial, given, {})))
+      return true;
     if (!is_closed(nearest)) return report_open();
     warn_of_range(nearest);
     return true;
