@@ -257,17 +257,16 @@ namespace {
 
 /// Whether closed forms and Newton's iterations find the positions that were settled; false after a message.
 bool starts_as_settled(const RunModel& model, const studies::Flow<double>& flow) {
-  constexpr double kSame = 1e-6;
+  const double same = std::max(1e-6, 1e4 * flow.table().unit_roundoff);  // float rounds by more
   const std::vector<double>& settled = model.start.x;
   if (settled.empty() || flow.start_set() != settled) return true;
   const std::vector<double> found = flow.start().x;
   const std::vector<std::string> names = model::lay_out_coordinates(model.loaded.mechanism).position_names;
   for (std::size_t i = 0; i < names.size(); ++i)
-    if (std::fabs(found[i] - settled[i]) > kSame * std::max(1.0, std::fabs(settled[i]))) {
+    if (std::fabs(found[i] - settled[i]) > same * std::max(1.0, std::fabs(settled[i]))) {
       fmt::print(stderr,
                  "error: at these values of its parameters '{}' starts with {} = {:g}, but its loops are "
-                 "closed another "
-                 "way there, with {:g}\n",
+                 "closed another way there, with {:g}\n",
                  model.loaded.mechanism.name, support::shown(names[i]), settled[i], found[i]);
       return false;
     }

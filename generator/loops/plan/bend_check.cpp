@@ -50,8 +50,7 @@ bool check_bend(const model::Mechanism& mechanism, const NumericClosure& closure
           "other",
           model::in_words(loop)),
       fmt::format("whatever the accelerations are, constraint {} opens by {:.3g}/s^2 with {}: give "
-                  "velocities of more "
-                  "joints, or start elsewhere",
+                  "velocities of more joints, or start elsewhere",
                   row_names(mechanism)[row],
                   static_cast<double>(std::abs(bent[worst]) * closure.units().rows[row]),
                   in_words(model::lay_out_coordinates(mechanism), z)));

@@ -134,9 +134,9 @@ class Planner {
     take(*partition);
     if (options.treatment != LoopTreatment::kPartitioned && close_explicitly()) return true;
     if (options.treatment == LoopTreatment::kExplicit) return refuse_explicit();
-    if (const std::string why = prove(); why.empty())
-      return true;
-    else if (!is_dead(closure_.in_units(jacobians_.front()), plan_.blocks))
+    const std::string why = prove();
+    if (why.empty()) return true;
+    if (!is_dead(closure_.in_units(jacobians_.front()), plan_.blocks))
       return warn_unproven("coordinates follow from time", why);
     if (plan_.is_named) return refuse_dead();
     plan_.reason = "the initial state is a dead position";
