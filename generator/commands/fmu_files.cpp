@@ -64,6 +64,8 @@ std::map<std::string, std::string> holes(const FmuScene& scene, const std::strin
           {"NP", count(facts.parameters.size())},
           {"NS", count(scene.positions.size())},
           {"NQ", count(quaternions.size())},
+          {"GIVEN_Y", count(facts.given_positions.size())},
+          {"GIVEN_Z", count(facts.given_velocities.size())},
           {"NV", count(scene.numbers.size())},
           {"REDUCED", facts.is_reduced ? "1" : "0"},
           {"DERIVATIVES", scene.has_derivatives ? "1" : "0"},
@@ -74,7 +76,9 @@ std::map<std::string, std::string> holes(const FmuScene& scene, const std::strin
           {"STATE_POSITIONS", entries(scene.positions)},
           {"STATE_VELOCITIES", entries(velocities)},
           {"NOMINALS", nominals(scene)},
-          {"QUATERNIONS", entries(quaternions)}};
+          {"QUATERNIONS", entries(quaternions)},
+          {"GIVEN_POSITIONS", entries(facts.given_positions)},
+          {"GIVEN_VELOCITIES", entries(facts.given_velocities)}};
 }
 
 /// Closes what zip_close would write elsewhere.

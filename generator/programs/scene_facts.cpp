@@ -78,12 +78,21 @@ void set_loop_facts(const model::Mechanism& mechanism, const loops::LoopPlan& pl
   facts.constraints = loops::row_names(mechanism);
   facts.is_reduced = plan.is_reduced();
   facts.closings = plan.closings();
-  if (!plan.is_reduced()) return;
+  for (std::size_t i = 0; i < plan.kept_y.size(); ++i)
+    if (plan.kept_y[i]) facts.given_positions.push_back(i);
+  if (!plan.is_reduced()) {
+    for (std::size_t j = 0; j < plan.kept_z.size(); ++j)
+      if (plan.kept_z[j]) facts.given_velocities.push_back(j);
+    return;
+  }
   facts.dependents = dependent_positions(plan, facts.tangent);
   facts.carried = carried_positions(plan, facts.tangent);
   facts.tangent = independent_tangent(plan, facts.tangent);
   std::vector<std::string> independent;
-  for (const std::size_t k : plan.independent) independent.push_back(facts.velocities[k]);
+  for (const std::size_t k : plan.independent) {
+    if (plan.kept_z[k]) facts.given_velocities.push_back(independent.size());
+    independent.push_back(facts.velocities[k]);
+  }
   facts.velocities = independent;
 }
 

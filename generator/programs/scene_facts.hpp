@@ -51,7 +51,9 @@ struct SceneFacts {
   std::vector<std::string> constraints;  ///< names of the rows of all loops
   bool is_reduced = false;               ///< some coordinates follow from others
   std::vector<std::size_t> dependents;   ///< entries of y that close_loops sets
-  std::vector<std::size_t> carried;      ///< entries of y whose velocities follow, but not they themselves
+  /// Entries of y and z that start as the description says, where loops might move them.
+  std::vector<std::size_t> given_positions, given_velocities;
+  std::vector<std::size_t> carried;  ///< entries of y whose velocities follow, but not they themselves
   int closings =
       1;  ///< calls of close_loops where dependent positions were not integrated along: more for Newton's method
 

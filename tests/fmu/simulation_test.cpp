@@ -316,6 +316,30 @@ TEST(Start, OfAnotherTimeThatMovesWhatTheDescriptionSaysIsLogged) {
   }
 }
 
+/// Of the description, which the rod of another length cannot keep; what is set besides is told as before.
+TEST(Start, OfOtherParametersThatMovesWhatTheDescriptionSaysIsLogged) {
+  for (const int version : {2, 3}) {
+    const Fmu fmu(make_fmu("../tests/fmu/pulled_pendulums", version));
+    for (const bool is_exchange : {false, true}) {
+      Instance usual(fmu, is_exchange), longer(fmu, is_exchange), given(fmu, is_exchange);
+      ASSERT_EQ(usual.set("payload", 1.6), kOk);
+      usual.start();
+      EXPECT_TRUE(usual.log().empty()) << usual.log().back();
+      ASSERT_EQ(longer.set("span", 1.1), kOk);
+      longer.start();
+      ASSERT_EQ(longer.log().size(), 1u);
+      EXPECT_NE(longer.log().back().find("start values were moved"), std::string::npos)
+          << longer.log().back();
+      ASSERT_EQ(given.set("span", 1.1), kOk);
+      ASSERT_EQ(given.enter_initialization(), kOk);
+      for (const char* name : {"left", "right", "left_velocity", "right_velocity"})
+        ASSERT_EQ(given.set(name, longer.value(name)), kOk);
+      ASSERT_EQ(given.exit_initialization(), kOk);
+      EXPECT_TRUE(given.log().empty()) << given.log().back();
+    }
+  }
+}
+
 TEST(Parameters, ThatAreMassesAreNotNegative) {
   for (const int version : {2, 3}) {
     const Fmu fmu(make_fmu("../tests/fmu/pulled_pendulums", version));
