@@ -122,11 +122,11 @@ template <class Real> JOURDAIN_FUNCTION
 void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>&, Real (&q)[2]) noexcept {
   const Real pulley_leftx0_z = state.y[0] - Real(3.0);
   const Real expression = pulley_leftx0_z * pulley_leftx0_z;
-  const Real expression_2 = expression + Real(1e-18);
+  const Real expression_2 = expression + Real(1e-24);
   const Real expression_3 = detail::square_root(expression_2);
   const Real weightx1_z = state.y[1] - Real(2.0);
   const Real expression_4 = weightx1_z * weightx1_z;
-  const Real expression_5 = Real(1e-18) + expression_4;
+  const Real expression_5 = Real(1e-24) + expression_4;
   const Real expression_6 = detail::square_root(expression_5);
   const Real expression_7 = expression_3 + model.c2 + (expression_3 + expression_6);
   const Real expression_8 = expression_7 * model.stiffness;
@@ -152,11 +152,11 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
     noexcept {
   const Real pulley_leftx0_z = state.y[0] - Real(3.0);
   const Real expression = pulley_leftx0_z * pulley_leftx0_z;
-  const Real expression_2 = expression + Real(1e-18);
+  const Real expression_2 = expression + Real(1e-24);
   const Real expression_3 = detail::square_root(expression_2);
   const Real weightx1_z = state.y[1] - Real(2.0);
   const Real expression_4 = weightx1_z * weightx1_z;
-  const Real expression_5 = Real(1e-18) + expression_4;
+  const Real expression_5 = Real(1e-24) + expression_4;
   const Real expression_6 = detail::square_root(expression_5);
   const Real expression_7 = expression_3 + model.c2 + (expression_3 + expression_6);
   const Real expression_8 = expression_7 * model.stiffness;
@@ -184,11 +184,11 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
     (&tau)[2]) noexcept {
   const Real pulley_leftx0_z = state.y[0] - Real(3.0);
   const Real expression = pulley_leftx0_z * pulley_leftx0_z;
-  const Real expression_2 = expression + Real(1e-18);
+  const Real expression_2 = expression + Real(1e-24);
   const Real expression_3 = detail::square_root(expression_2);
   const Real weightx1_z = state.y[1] - Real(2.0);
   const Real expression_4 = weightx1_z * weightx1_z;
-  const Real expression_5 = Real(1e-18) + expression_4;
+  const Real expression_5 = Real(1e-24) + expression_4;
   const Real expression_6 = detail::square_root(expression_5);
   const Real expression_7 = expression_3 + model.c9 + (expression_3 + expression_6);
   const Real expression_8 = expression_7 * model.stiffness;

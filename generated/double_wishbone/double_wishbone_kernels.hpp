@@ -949,7 +949,7 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real strutbx_y = s0 * Real(0.22);
   const Real strutd_y = strutbx_x - Real(0.10000000000000003);
   const Real strutd_z = strutbx_y - Real(0.41000000000000003);
-  const Real strut_ll = strutd_z * strutd_z + (strutd_y * strutd_y + Real(1e-18));
+  const Real strut_ll = strutd_z * strutd_z + (strutd_y * strutd_y + Real(1e-24));
   const Real strut_l = detail::square_root(strut_ll);
   const Real strut_rate = (strutd_y * (state.z[0] * strutbx_y) - strutd_z * (state.z[0] * strutbx_x)) /
       strut_l;
@@ -1162,7 +1162,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real strutbx_y = s0 * Real(0.22);
   const Real strutd_y = strutbx_x - Real(0.10000000000000003);
   const Real strutd_z = strutbx_y - Real(0.41000000000000003);
-  const Real strut_ll = strutd_z * strutd_z + (strutd_y * strutd_y + Real(1e-18));
+  const Real strut_ll = strutd_z * strutd_z + (strutd_y * strutd_y + Real(1e-24));
   const Real strut_l = detail::square_root(strut_ll);
   const Real strut_rate = (strutd_y * (state.z[0] * strutbx_y) - strutd_z * (state.z[0] * strutbx_x)) /
       strut_l;
@@ -1406,7 +1406,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real strutbx_y = s0 * Real(0.22);
   const Real strutd_y = strutbx_x - Real(0.10000000000000003);
   const Real strutd_z = strutbx_y - Real(0.41000000000000003);
-  const Real strut_ll = strutd_z * strutd_z + (strutd_y * strutd_y + Real(1e-18));
+  const Real strut_ll = strutd_z * strutd_z + (strutd_y * strutd_y + Real(1e-24));
   const Real strut_l = detail::square_root(strut_ll);
   const Real strut_rate = (strutd_y * (state.z[0] * strutbx_y) - strutd_z * (state.z[0] * strutbx_x)) /
       strut_l;
@@ -1613,7 +1613,7 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
   const Real strutbx_y = s0 * Real(0.22);
   const Real strutd_y = strutbx_x - Real(0.10000000000000003);
   const Real strutd_z = strutbx_y - Real(0.41000000000000003);
-  const Real strut_ll = strutd_z * strutd_z + (strutd_y * strutd_y + Real(1e-18));
+  const Real strut_ll = strutd_z * strutd_z + (strutd_y * strutd_y + Real(1e-24));
   const Real strut_l = detail::square_root(strut_ll);
   const Real strut_e = strut_l - model.free_length;
   const Real V = hg3_z * Real(9.81) + strut_e * (strut_e * model.c8);
@@ -1994,7 +1994,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real strutbx_y = s0 * Real(0.22);
   const Real strutd_y = strutbx_x - Real(0.10000000000000003);
   const Real strutd_z = strutbx_y - Real(0.41000000000000003);
-  const Real strut_ll = strutd_z * strutd_z + (strutd_y * strutd_y + Real(1e-18));
+  const Real strut_ll = strutd_z * strutd_z + (strutd_y * strutd_y + Real(1e-24));
   const Real strut_l = detail::square_root(strut_ll);
   const Real strut_rate = (strutd_y * (state.z[0] * strutbx_y) - strutd_z * (state.z[0] * strutbx_x)) /
       strut_l;

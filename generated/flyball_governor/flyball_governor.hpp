@@ -9,7 +9,7 @@
 //
 // Assumptions
 // - bodies are rigid; joints are ideal and without limits
-// - a spring's length is sqrt(|dr|^2 + (1e-09 m)^2), so that its direction is defined at zero length
+// - a spring's length is sqrt(|dr|^2 + (1e-12 m)^2), so that its direction is defined at zero length
 // Left out
 // - base inertial parameters: what a joint's motion does not feel is counted with the parent (1 operations of
 //   forward_dynamics)

@@ -436,7 +436,7 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real t18 = Real(1.0) - state.y[1];
   const Real link1d_z = link1bx_x - t18;
   const Real link1v_z = link1bv2_x + state.z[1];
-  const Real link1_ll = link1d_x * link1d_x + Real(1e-18) + (link1d_y * link1d_y + link1d_z * link1d_z);
+  const Real link1_ll = link1d_x * link1d_x + Real(1e-24) + (link1d_y * link1d_y + link1d_z * link1d_z);
   const Real link1_l = detail::square_root(link1_ll);
   const Real link1_rate = (link1bx_x * link1bv2_x - link1d_z * link1v_z) / link1_l;
   const Real link1_e = Real(0.5) - link1_l;
@@ -450,7 +450,7 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real link2d_y = s0 * link2bx_y;
   const Real link2d_z = t18 - link2bx_x;
   const Real link2v_z = state.z[1] + link2bv3_x;
-  const Real link2_ll = Real(1e-18) + link2d_x * link2d_x + (link2d_y * link2d_y + link2d_z * link2d_z);
+  const Real link2_ll = Real(1e-24) + link2d_x * link2d_x + (link2d_y * link2d_y + link2d_z * link2d_z);
   const Real link2_l = detail::square_root(link2_ll);
   const Real link2_rate = (link2bx_x * link2bv3_x + link2d_z * link2v_z) / link2_l;
   const Real link2_e = Real(0.5) - link2_l;
@@ -485,7 +485,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t26 = state.y[1] - Real(1.0);
   const Real link1d_z = link1bx_x + t26;
   const Real link1v_z = link1bv2_x + state.z[1];
-  const Real link1_ll = link1d_x * link1d_x + Real(1e-18) + (link1d_y * link1d_y + link1d_z * link1d_z);
+  const Real link1_ll = link1d_x * link1d_x + Real(1e-24) + (link1d_y * link1d_y + link1d_z * link1d_z);
   const Real link1_l = detail::square_root(link1_ll);
   const Real link1_rate = (link1d_z * link1v_z - link1bx_x * link1bv2_x) / link1_l;
   const Real link1_e = Real(0.5) - link1_l;
@@ -499,7 +499,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real link2d_y = s0 * link2bx_y;
   const Real link2d_z = t26 + link2bx_x;
   const Real link2v_z = state.z[1] + link2bv3_x;
-  const Real link2_ll = Real(1e-18) + link2d_x * link2d_x + (link2d_y * link2d_y + link2d_z * link2d_z);
+  const Real link2_ll = Real(1e-24) + link2d_x * link2d_x + (link2d_y * link2d_y + link2d_z * link2d_z);
   const Real link2_l = detail::square_root(link2_ll);
   const Real link2_rate = (link2d_z * link2v_z - link2bx_x * link2bv3_x) / link2_l;
   const Real link2_e = Real(0.5) - link2_l;
@@ -550,7 +550,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real t35 = state.y[1] - Real(1.0);
   const Real link1d_z = link1bx_x + t35;
   const Real link1v_z = link1bv2_x + state.z[1];
-  const Real link1_ll = link1d_x * link1d_x + Real(1e-18) + (link1d_y * link1d_y + link1d_z * link1d_z);
+  const Real link1_ll = link1d_x * link1d_x + Real(1e-24) + (link1d_y * link1d_y + link1d_z * link1d_z);
   const Real link1_l = detail::square_root(link1_ll);
   const Real link1_rate = (link1d_z * link1v_z - link1bx_x * link1bv2_x) / link1_l;
   const Real link1_e = Real(0.5) - link1_l;
@@ -564,7 +564,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real link2d_y = s0 * link2bx_y;
   const Real link2d_z = t35 + link2bx_x;
   const Real link2v_z = state.z[1] + link2bv3_x;
-  const Real link2_ll = Real(1e-18) + link2d_x * link2d_x + (link2d_y * link2d_y + link2d_z * link2d_z);
+  const Real link2_ll = Real(1e-24) + link2d_x * link2d_x + (link2d_y * link2d_y + link2d_z * link2d_z);
   const Real link2_l = detail::square_root(link2_ll);
   const Real link2_rate = (link2d_z * link2v_z - link2bx_x * link2bv3_x) / link2_l;
   const Real link2_e = Real(0.5) - link2_l;
@@ -618,7 +618,7 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
   const Real link1d_y = s0 * link1bx_y;
   const Real t24 = state.y[1] - Real(1.0);
   const Real link1d_z = link1bx_x + t24;
-  const Real link1_ll = link1d_x * link1d_x + Real(1e-18) + (link1d_y * link1d_y + link1d_z * link1d_z);
+  const Real link1_ll = link1d_x * link1d_x + Real(1e-24) + (link1d_y * link1d_y + link1d_z * link1d_z);
   const Real link1_l = detail::square_root(link1_ll);
   const Real link1_e = Real(0.5) - link1_l;
   const Real link2bx_x = s3 * Real(0.5);
@@ -626,7 +626,7 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
   const Real link2d_x = c0 * link2bx_y;
   const Real link2d_y = s0 * link2bx_y;
   const Real link2d_z = t24 + link2bx_x;
-  const Real link2_ll = Real(1e-18) + link2d_x * link2d_x + (link2d_y * link2d_y + link2d_z * link2d_z);
+  const Real link2_ll = Real(1e-24) + link2d_x * link2d_x + (link2d_y * link2d_y + link2d_z * link2d_z);
   const Real link2_l = detail::square_root(link2_ll);
   const Real link2_e = Real(0.5) - link2_l;
   const Real V = hg0_z * Real(9.81) - (link1_e * link1_e + link2_e * link2_e) * model.c2;

@@ -15,7 +15,7 @@
 //
 // Assumptions
 // - bodies are rigid; joints are ideal and without limits
-// - a spring's length is sqrt(|dr|^2 + (1e-09 m)^2), so that its direction is defined at zero length
+// - a spring's length is sqrt(|dr|^2 + (1e-12 m)^2), so that its direction is defined at zero length
 // - quaternions are near unit length; a step ends with unit length
 // - time is a sum of three numbers, which 7 additions move
 // - angles that follow from time are sums of two numbers, so that the phase stays right: operation counts

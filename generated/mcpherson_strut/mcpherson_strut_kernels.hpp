@@ -900,7 +900,7 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real h1c_y = q1r2_z * Real(6.08) - (q1r2_y * Real(1.14) - Real(0.76));
   const Real h0b_x = c0 * h1c_x - s0 * h1c_y;
   const Real spring_damper_ll = strutd_z * strutd_z + (strutd_y * strutd_y + (strutd_x * strutd_x +
-      Real(1e-18)));
+      Real(1e-24)));
   const Real spring_damper_l = detail::square_root(spring_damper_ll);
   const Real spring_damper_rate = (strutd_z * strutam0v_y - (strutd_x * strutam1vpp_z + strutd_y *
       strutam0v_x)) / spring_damper_l;
@@ -1187,7 +1187,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real w1p_y = q1r0_y * state.z[0];
   const Real w1p_z = q1r0_z * state.z[0];
   const Real spring_damper_ll = strutd_z * strutd_z + (strutd_y * strutd_y + (strutd_x * strutd_x +
-      Real(1e-18)));
+      Real(1e-24)));
   const Real spring_damper_l = detail::square_root(spring_damper_ll);
   const Real spring_damper_rate = (strutd_z * strutam0v_y + (strutd_x * strutam1vpp_z + strutd_y *
       strutam0v_x)) / spring_damper_l;
@@ -1498,7 +1498,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real w1p_y = q1r0_y * state.z[0];
   const Real w1p_z = q1r0_z * state.z[0];
   const Real spring_damper_ll = strutd_z * strutd_z + (strutd_y * strutd_y + (strutd_x * strutd_x +
-      Real(1e-18)));
+      Real(1e-24)));
   const Real spring_damper_l = detail::square_root(spring_damper_ll);
   const Real spring_damper_rate = (strutd_z * strutam0v_y + (strutd_x * strutam1vpp_z + strutd_y *
       strutam0v_x)) / spring_damper_l;
@@ -1747,7 +1747,7 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
   const Real h1c_y = q1r2_z * Real(6.08) - (q1r2_y * Real(1.14) - Real(0.76));
   const Real hg2_z = s0 * h1c_x + (c0 * h1c_y - Real(9.84));
   const Real spring_damper_ll = strutd_z * strutd_z + (strutd_y * strutd_y + (strutd_x * strutd_x +
-      Real(1e-18)));
+      Real(1e-24)));
   const Real spring_damper_l = detail::square_root(spring_damper_ll);
   const Real spring_damper_e = spring_damper_l - model.free_length;
   const Real V = hg2_z * Real(9.81) - spring_damper_e * (spring_damper_e * model.c8);
@@ -2294,7 +2294,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real w1p_y = q1r0_y * state.z[0];
   const Real w1p_z = q1r0_z * state.z[0];
   const Real spring_damper_ll = strutd_z * strutd_z + (strutd_y * strutd_y + (strutd_x * strutd_x +
-      Real(1e-18)));
+      Real(1e-24)));
   const Real spring_damper_l = detail::square_root(spring_damper_ll);
   const Real spring_damper_rate = (strutd_z * strutam0v_y + (strutd_x * strutam1vpp_z + strutd_y *
       strutam0v_x)) / spring_damper_l;

@@ -16,7 +16,7 @@
 //
 // Assumptions
 // - bodies are rigid; joints are ideal and without limits
-// - a spring's length is sqrt(|dr|^2 + (1e-09 m)^2), so that its direction is defined at zero length
+// - a spring's length is sqrt(|dr|^2 + (1e-12 m)^2), so that its direction is defined at zero length
 // Left out
 // - t: nothing depends on time, states hold none
 // - joint springs: none

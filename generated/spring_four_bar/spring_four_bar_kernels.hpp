@@ -390,7 +390,7 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real diagonalbv2_x = t26 * (s2 * state.z[0]);
   const Real h1b_x = c1 * Real(0.5);
   const Real h0b_x = c0 * Real(1.5);
-  const Real diagonal_ll = pinax2_x * pinax2_x + (s2 * s2 + Real(1e-18));
+  const Real diagonal_ll = pinax2_x * pinax2_x + (s2 * s2 + Real(1e-24));
   const Real diagonal_l = detail::square_root(diagonal_ll);
   const Real diagonal_rate = diagonalbv2_x / diagonal_l;
   const Real diagonal_e = diagonal_l - Real(1.4142135623730951);
@@ -431,7 +431,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
       Real(1.6666666666666667)))) + (t26 * (c0 * h1b_x) - (v1L_z + t26 * (s0 * h1b_y)));
   const Real h0b_x = c0 * Real(1.5);
   const Real h0_x = h1b_x - h0b_x;
-  const Real diagonal_ll = pinax2_x * pinax2_x + (s2 * s2 + Real(1e-18));
+  const Real diagonal_ll = pinax2_x * pinax2_x + (s2 * s2 + Real(1e-24));
   const Real diagonal_l = detail::square_root(diagonal_ll);
   const Real diagonal_rate = diagonalbv2_x / diagonal_l;
   const Real diagonal_e = diagonal_l - Real(1.4142135623730951);
@@ -479,7 +479,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real h0b_x = c0 * Real(1.5);
   const Real h0_x = h1b_x - h0b_x;
   const Real J0 = t5 + Real(1.6666666666666667);
-  const Real diagonal_ll = pinax2_x * pinax2_x + (s2 * s2 + Real(1e-18));
+  const Real diagonal_ll = pinax2_x * pinax2_x + (s2 * s2 + Real(1e-24));
   const Real diagonal_l = detail::square_root(diagonal_ll);
   const Real diagonal_rate = diagonalbv2_x / diagonal_l;
   const Real diagonal_e = diagonal_l - Real(1.4142135623730951);
@@ -524,7 +524,7 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
   Real s2, c2, s0, t21, t22, t19;
   detail::sine_cosine3(state.y[2], s2, c2, state.y[0], s0, t21, state.y[1], t22, t19);
   const Real pinax2_x = c2 + Real(1.0);
-  const Real diagonal_ll = pinax2_x * pinax2_x + (s2 * s2 + Real(1e-18));
+  const Real diagonal_ll = pinax2_x * pinax2_x + (s2 * s2 + Real(1e-24));
   const Real diagonal_l = detail::square_root(diagonal_ll);
   const Real diagonal_e = diagonal_l - Real(1.4142135623730951);
   const Real h0b_y = s0 * Real(1.5);
@@ -635,7 +635,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
       Real(1.6666666666666667)))) + (t26 * (c0 * h1b_x) - (v1L_z + t26 * (s0 * h1b_y)));
   const Real h0b_x = c0 * Real(1.5);
   const Real h0_x = h1b_x - h0b_x;
-  const Real diagonal_ll = pinax2_x * pinax2_x + (s2 * s2 + Real(1e-18));
+  const Real diagonal_ll = pinax2_x * pinax2_x + (s2 * s2 + Real(1e-24));
   const Real diagonal_l = detail::square_root(diagonal_ll);
   const Real diagonal_rate = diagonalbv2_x / diagonal_l;
   const Real diagonal_e = diagonal_l - Real(1.4142135623730951);

@@ -732,7 +732,7 @@ void q_bar(const Model<Real>& model, const State<Real>& state, const Input<Real>
   const Real spring1bx_y = c2 * Real(0.018) - s2 * Real(0.02);
   const Real spring1d_x = spring1bx_x - Real(0.05035);
   const Real spring1d_y = spring1bx_y + Real(0.03926999999999999);
-  const Real spring1_ll = spring1d_y * spring1d_y + (spring1d_x * spring1d_x + Real(1e-18));
+  const Real spring1_ll = spring1d_y * spring1d_y + (spring1d_x * spring1d_x + Real(1e-24));
   const Real spring1_l = detail::square_root(spring1_ll);
   const Real spring1_e = spring1_l - Real(0.07785);
   const Real spring1_Tl = spring1_e / spring1_l * model.c0;
@@ -842,7 +842,7 @@ void forward_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real spring1bx_y = c2 * Real(0.018) - s2 * Real(0.02);
   const Real spring1d_x = spring1bx_x - Real(0.05035);
   const Real spring1d_y = spring1bx_y + Real(0.03926999999999999);
-  const Real spring1_ll = spring1d_y * spring1d_y + (spring1d_x * spring1d_x + Real(1e-18));
+  const Real spring1_ll = spring1d_y * spring1d_y + (spring1d_x * spring1d_x + Real(1e-24));
   const Real spring1_l = detail::square_root(spring1_ll);
   const Real spring1_e = spring1_l - Real(0.07785);
   const Real spring1_Tl = spring1_e / spring1_l * model.c0;
@@ -971,7 +971,7 @@ void inverse_dynamics(const Model<Real>& model, const State<Real>& state, const 
   const Real spring1bx_y = c2 * Real(0.018) - s2 * Real(0.02);
   const Real spring1d_x = spring1bx_x - Real(0.05035);
   const Real spring1d_y = spring1bx_y + Real(0.03926999999999999);
-  const Real spring1_ll = spring1d_y * spring1d_y + (spring1d_x * spring1d_x + Real(1e-18));
+  const Real spring1_ll = spring1d_y * spring1d_y + (spring1d_x * spring1d_x + Real(1e-24));
   const Real spring1_l = detail::square_root(spring1_ll);
   const Real spring1_e = spring1_l - Real(0.07785);
   const Real spring1_Tl = spring1_e / spring1_l * model.c0;
@@ -1073,7 +1073,7 @@ Real potential_energy(const Model<Real>& model, const State<Real>& state) noexce
   detail::sine_cosine(state.y[2], s2, c2);
   const Real spring1d_x = c2 * Real(0.02) + (s2 * Real(0.018) - Real(0.05035));
   const Real spring1d_y = s2 * Real(0.02) - (c2 * Real(0.018) + Real(0.03926999999999999));
-  const Real spring1_ll = spring1d_y * spring1d_y + (spring1d_x * spring1d_x + Real(1e-18));
+  const Real spring1_ll = spring1d_y * spring1d_y + (spring1d_x * spring1d_x + Real(1e-24));
   const Real spring1_l = detail::square_root(spring1_ll);
   const Real spring1_e = spring1_l - Real(0.07785);
   const Real V = spring1_e * (spring1_e * model.c2);
@@ -1328,7 +1328,7 @@ void constraint_forces(const Model<Real>& model, const State<Real>& state, const
   const Real spring1bx_y = c2 * Real(0.018) - s2 * Real(0.02);
   const Real spring1d_x = spring1bx_x - Real(0.05035);
   const Real spring1d_y = spring1bx_y + Real(0.03926999999999999);
-  const Real spring1_ll = spring1d_y * spring1d_y + (spring1d_x * spring1d_x + Real(1e-18));
+  const Real spring1_ll = spring1d_y * spring1d_y + (spring1d_x * spring1d_x + Real(1e-24));
   const Real spring1_l = detail::square_root(spring1_ll);
   const Real spring1_e = spring1_l - Real(0.07785);
   const Real spring1_Tl = spring1_e / spring1_l * model.c0;

@@ -35,6 +35,17 @@ bool is_unknown_command(const CLI::App& app, int argc, char** argv) {
   return true;
 }
 
+/// Of options that name a file or a folder an empty name is refused: without any, files would be left out in silence.
+void refuse_empty_names(CLI::App& app) {
+  const CLI::Validator not_empty(
+      [](std::string& name) { return name.empty() ? std::string("the name is empty") : std::string(); }, "");
+  for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    for (const char* name : {"--output", "--depfile", "--against", "--inputs", "--plot"})
+      if (CLI::Option* option = command->get_option_no_throw(name);
+          option && option->get_items_expected_max() == 1)  // `simulate --plot` takes names of signals, too
+        option->check(not_empty);
+}
+
 /// The arguments after the program's name, in reverse as CLI11 takes them. Options that take several values would take
 /// the model too: a second value that is a model file is moved to the front.
 std::vector<std::string> reversed_arguments(int argc, char** argv) {
@@ -74,6 +85,7 @@ int run(int argc, char** argv) {
   support::handle_interruptions();
   int status = kSuccess;
   add_all(app, status);
+  refuse_empty_names(app);
   if (is_unknown_command(app, argc, argv)) return kUsage;
   try {
     app.parse(reversed_arguments(argc, argv));

@@ -135,7 +135,7 @@ int run(EnsembleArguments arguments) {
       !std::all_of(spreads->begin(), spreads->end(), is_of_input))
     fmt::print(stderr,
                "note: drawn states close their loops by the least change, weighed by masses: positions and "
-               "velocities that '{}' gives move with the others\n",
+               "velocities that '{}' gives move with the others; 'simulate --set' keeps them where it can\n",
                model->loaded.mechanism.name);
   EnsembleResult result;
   result.shard = *shard;
@@ -182,10 +182,12 @@ void add_ensemble(CLI::App& app, int& status) {
       ->check(CLI::Range(std::uint64_t{1}, kMostStates))
       ->capture_default_str();
   command
-      ->add_option("--spread", arguments->spreads,
-                   "what differs: NAME=normal(DEVIATION) or NAME=uniform(HALF) about its value, of a "
-                   "parameter, an input or "
-                   "the start of a position or velocity; 5% is a share of the value; may be repeated")
+      ->add_option(
+          "--spread", arguments->spreads,
+          "what differs: NAME=normal(DEVIATION) or NAME=uniform(HALF) about its value, in SI units "
+          "whatever unit it declares, of a parameter, an input (NAME_input) or the start of a "
+          "position or velocity; 5% is a share of the value, of parameters and inputs alone that are "
+          "not zero; may be repeated")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command->add_option("--seed", arguments->choices.seed, "of what is drawn")

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdint>
 #include <map>
 #include <vector>
@@ -26,6 +27,14 @@ using ir::ValueId;
 
 /// Largest number of coordinates for which expanded equations are readable.
 constexpr std::size_t kExpandedCoordinates = 3;
+
+constexpr const char* kWhereNegative = "where_negative(a, b): b where a < 0, else 0";
+constexpr const char* kWhereNotNegative = "where_not_negative(a, b): 0 where a < 0, else b";
+
+/// A line of its own, of LaTeX a comment.
+std::string meaning(const std::string& sentence, bool latex) {
+  return fmt::format("  {}{}\n", latex ? "% " : "", sentence);
+}
 
 /// Prints a program as one equation per named or shared value, then its outputs.
 class EquationPrinter {
@@ -54,10 +63,10 @@ class EquationPrinter {
 
   std::string print() const {
     std::string text;
-    if (has(Op::kWhereNegative)) text += meaning("where_negative(a, b): b where a < 0, else 0");
-    if (has(Op::kWhereNotNegative)) text += meaning("where_not_negative(a, b): 0 where a < 0, else b");
+    if (!latex_ && has(Op::kWhereNegative)) text += meaning(kWhereNegative, latex_);
+    if (!latex_ && has(Op::kWhereNotNegative)) text += meaning(kWhereNotNegative, latex_);
     if (!arrays_.empty())
-      text += meaning("entry(x, array): that of number floor(x), the first is 0; beyond an end that");
+      text += meaning("entry(x, array): that of number floor(x), the first is 0; beyond an end that", latex_);
     for (const std::uint32_t array : arrays_) {
       std::vector<std::string> entries;
       for (const double entry : support::array_of(array)) entries.push_back(number(entry));
@@ -76,13 +85,9 @@ class EquationPrinter {
                        [op](const ir::Node& node) { return node.op == op; });
   }
 
-  std::string meaning(const std::string& sentence) const {
-    return fmt::format("  {}{}\n", latex_ ? "% " : "", sentence);
-  }
-
   struct Text {
     std::string text;
-    int strength;  ///< 0 sum, 1 product, 2 atom
+    int strength;  ///< -1 cases, 0 sum, 1 product, 2 atom
   };
 
   std::string spelt(const std::string& name) const { return spelling_(name); }
@@ -133,7 +138,17 @@ class EquationPrinter {
   }
 
   std::string at_least(const Text& text, int strength) const {
-    return text.strength >= strength ? text.text : "(" + text.text + ")";
+    if (text.strength >= strength) return text.text;
+    return text.strength < 0 ? "\\left(" + text.text + "\\right)" : "(" + text.text + ")";
+  }
+
+  /// Of LaTeX: what comes behind `left` is no number of it.
+  static std::string product(const std::string& left, const std::string& right) {
+    return left + (std::isdigit(static_cast<unsigned char>(right.front())) ? " \\cdot " : " ") + right;
+  }
+
+  static Text cases(const std::string& decides, const std::string& negative, const std::string& otherwise) {
+    return {dynamics::latex_cases(decides, negative, otherwise), -1};
   }
 
   Text expression(ValueId id, bool own) const {
@@ -154,7 +169,7 @@ class EquationPrinter {
       case Op::kSubtract:
         return {a(0) + " - " + b(1), 0};
       case Op::kMultiply:
-        return {a(1) + (latex_ ? " " : "*") + b(latex_ ? 2 : 1), 1};
+        return {latex_ ? product(a(1), b(2)) : a(1) + "*" + b(1), 1};
       case Op::kDivide:
         if (latex_) return {fmt::format("\\frac{{{}}}{{{}}}", a(0), b(0)), 2};
         return {a(1) + "/" + b(2), 1};
@@ -166,6 +181,10 @@ class EquationPrinter {
         return {fmt::format("{}cos({})", function, a(0)), 2};
       case Op::kEntry:
         return call(node.op, a(0), ", " + spelt(array_names_.at(array_of(node))));
+      case Op::kWhereNegative:
+        return latex_ ? cases(a(0), b(0), "0") : call(node.op, a(0), ", " + b(0));
+      case Op::kWhereNotNegative:
+        return latex_ ? cases(a(0), "0", b(0)) : call(node.op, a(0), ", " + b(0));
       default:
         return call(node.op, a(0), ir::operand_count(node.op) == 2 ? ", " + b(0) : "");
     }
@@ -209,6 +228,10 @@ std::string expanded(const dynamics::Equations& equations, bool latex) {
     line(latex ? fmt::format("\\bar k_{{{}}}", i) : fmt::format("k_bar[{}]", i), equations.k_bar[i]);
   for (std::size_t i = 0; i < n; ++i)
     line(latex ? fmt::format("\\bar q_{{{}}}", i) : fmt::format("q_bar[{}]", i), equations.q_bar[i]);
+  if (!latex && text.find("where_not_negative(") != std::string::npos)
+    text.insert(0, meaning(kWhereNotNegative, latex));
+  if (!latex && text.find("where_negative(") != std::string::npos)
+    text.insert(0, meaning(kWhereNegative, latex));
   return text;
 }
 

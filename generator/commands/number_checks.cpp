@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cerrno>
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -27,6 +29,23 @@ bool is_seed(const std::string& text) {
   errno = 0;
   std::strtoull(text.c_str(), &end, 0);
   return errno == 0 && end == text.c_str() + text.size();
+}
+
+/// "20us", "1ms", "0.5 s": a time in s.
+std::string read_time(std::string& text) {
+  double value = 0;
+  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  std::string unit(rest, static_cast<std::size_t>(text.data() + text.size() - rest));
+  unit.erase(std::remove(unit.begin(), unit.end(), ' '), unit.end());
+  const double scale = unit == "s" || unit.empty() ? 1
+                       : unit == "ms"              ? 1e-3
+                       : unit == "us"              ? 1e-6
+                       : unit == "ns"              ? 1e-9
+                                                   : 0;
+  if (error != std::errc() || scale == 0 || !(value > 0) || !std::isfinite(value))
+    return fmt::format("'{}' is no time; write 20us, 1ms or 0.5s", text);
+  text = fmt::format("{}", value * scale);
+  return "";
 }
 
 }  // namespace
@@ -57,5 +76,7 @@ CLI::Validator seed_number() {
   };
   return CLI::Validator(check, "");
 }
+
+CLI::Validator time_with_unit() { return CLI::Validator(read_time, "TIME", "time"); }
 
 }  // namespace jourdain::commands

@@ -15,4 +15,7 @@ CLI::Validator number_between(double low, double high);
 /// From 0 to 2^64 - 1, without a sign.
 CLI::Validator seed_number();
 
+/// "20us", "1ms", "0.5 s": becomes that time in s.
+CLI::Validator time_with_unit();
+
 }  // namespace jourdain::commands

@@ -3,7 +3,6 @@
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
 
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <future>
@@ -318,23 +317,6 @@ int run(ReportArguments arguments) {
                       figure, bar);
 }
 
-/// "20us", "1ms", "0.5 s": a time in s.
-std::string read_time(std::string& text) {
-  double value = 0;
-  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  std::string unit(rest, static_cast<std::size_t>(text.data() + text.size() - rest));
-  unit.erase(std::remove(unit.begin(), unit.end(), ' '), unit.end());
-  const double scale = unit == "s" || unit.empty() ? 1
-                       : unit == "ms"              ? 1e-3
-                       : unit == "us"              ? 1e-6
-                       : unit == "ns"              ? 1e-9
-                                                   : 0;
-  if (error != std::errc() || scale == 0 || !(value > 0) || !std::isfinite(value))
-    return fmt::format("'{}' is no time; write 20us, 1ms or 0.5s", text);
-  text = fmt::format("{}", value * scale);
-  return "";
-}
-
 }  // namespace
 
 void add_report(CLI::App& app, int& status) {
@@ -342,7 +324,7 @@ void add_report(CLI::App& app, int& status) {
   CLI::App* command = app.add_subcommand(
       "report",
       "error against run time, and where the error comes from: jourdain report arm.toml --tolerance 1e-6");
-  const CLI::Validator time(read_time, "TIME", "time");
+  const CLI::Validator time = time_with_unit();
   arguments->run.add_to(*command);
   command->add_option("-o,--output", arguments->folder, "folder to write into (default: NAME_report)");
   command
@@ -350,11 +332,12 @@ void add_report(CLI::App& app, int& status) {
                    "simulated time, as 2s; whole longest steps, four at least")
       ->transform(time)
       ->default_str("2s");
-  command
-      ->add_option("--longest-step", arguments->study.longest_step,
-                   "longest step, as 16ms; halved again and again")
-      ->transform(time)
-      ->default_str("16ms");
+  const auto* longest = command
+                            ->add_option("--longest-step", arguments->study.longest_step,
+                                         "longest step, as 16ms; halved again and again. Longer ones are "
+                                         "tried and recommended only where this is not given")
+                            ->transform(time)
+                            ->default_str("16ms");
   command->add_option("--halvings", arguments->study.halvings, "of the longest step")
       ->check(CLI::Range(1, 16))
       ->capture_default_str();
@@ -393,7 +376,10 @@ void add_report(CLI::App& app, int& status) {
   command->add_flag("!--no-forms", arguments->study.forms,
                     "leave out the comparison with equations of the first kind");
   command->add_flag("!--no-plots", arguments->plots, "leave out plots and the page, which need gnuplot");
-  command->callback([arguments, &status] { status = run(*arguments); });
+  command->callback([arguments, longest, &status] {
+    if (!longest->empty()) arguments->study.question.longest = arguments->study.longest_step;
+    status = run(*arguments);
+  });
 }
 
 }  // namespace jourdain::commands

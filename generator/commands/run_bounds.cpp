@@ -97,6 +97,7 @@ std::string step_limit_text(const Flow<double>& flow, const Point<double>& point
   const Eigen::MatrixXd A = studies::linearisation(flow, point, tangent);
   if (!A.allFinite()) return "";
   const Eigen::VectorXcd modes = studies::modes_of(A).values;
+  if (!modes.allFinite()) return "";
   if (function->kind == studies::StabilityFunction::Kind::kPartitioned)
     return growth_text(*function, A, std::max(0.0, modes.real().maxCoeff()), point.t, h);
   double limit = h;
@@ -120,6 +121,23 @@ std::string step_limit_text(const Flow<double>& flow, const Point<double>& point
                      point.t, mode_text(worst));
 }
 
+/// What grows at `point` as fast as anything decays there, faster than steps of length `h` follow: no method does.
+std::string growth_limit_text(const Flow<double>& flow, const Point<double>& point,
+                              const model::Tangent& tangent, double h) {
+  constexpr double kAsFast = 0.5;
+  if (flow.table().velocity_count == 0) return "";
+  const Eigen::MatrixXd A = studies::linearisation(flow, point, tangent);
+  if (!A.allFinite()) return "";
+  const Eigen::VectorXcd modes = studies::modes_of(A).values;
+  const double growth = modes.real().maxCoeff();
+  if (!(growth * h > kFast) || !(growth > kAsFast * modes.cwiseAbs().maxCoeff())) return "";
+  return fmt::format(
+      "is too long: at t = {:g} s a mode grows at {:.3g}/s; take a shorter one: if it ends there, too, so "
+      "does "
+      "the motion",
+      point.t, growth);
+}
+
 /// Whether rates are not finite at `point`, or where they lead to in half a step or one and no number is huge.
 bool is_singular(const Flow<double>& flow, const Point<double>& point, double h) {
   const std::vector<double> rates = flow.rates(point.t, point.x);
@@ -140,7 +158,7 @@ bool is_singular(const Flow<double>& flow, const Point<double>& point, double h)
 
 std::string breach_text(const Flow<double>& flow, const model::Tangent& tangent, const Breach& breach,
                         const std::string& method, double h) {
-  if (breach.of_loops) return fmt::format("error: {}\n", breach.what);
+  if (breach.is_explained) return fmt::format("error: {}\n", breach.what);
   if (is_singular(flow, breach.last, h))
     return fmt::format(
         "error: the equations of motion have no finite rates from t = {:g} s on: the mass matrix is singular "
@@ -148,9 +166,11 @@ std::string breach_text(const Flow<double>& flow, const model::Tangent& tangent,
         "a force has no value\n",
         breach.last.t);
   std::string why = step_limit_text(flow, flow.start(), tangent, method, h);
+  const std::string growth = why.empty() ? growth_limit_text(flow, breach.last, tangent, h) : std::string();
   if (why.empty()) why = step_limit_text(flow, breach.last, tangent, method, h);
   const std::string verdict =
-      why.empty()
+      !growth.empty() ? growth
+      : why.empty()
           ? "may be too long"
           : fmt::format(
                 "is too long: {}; take a shorter one or --method rodas4{}", why,

@@ -105,7 +105,9 @@ std::optional<RunInputs> read_scenario_file(const std::string& path, const RunMo
 
 void RunArguments::add_to(CLI::App& command) {
   model.add_to(command);
-  command.add_option("--set", settings, "value of a parameter, NAME=VALUE; may be repeated")
+  command
+      .add_option("--set", settings,
+                  "value of a parameter, NAME=VALUE, in SI units whatever unit it declares; may be repeated")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   auto* constant = command.add_option("--constant-input", constant_input, "value of each input (default: 0)")

@@ -22,6 +22,7 @@
 #include "commands/run_setup.hpp"
 #include "commands/signal_choice.hpp"
 #include "commands/signal_plot.hpp"
+#include "commands/step_guard.hpp"
 #include "programs/displaced_tangent.hpp"
 #include "report/conserved_energy.hpp"
 #include "report/plot.hpp"
@@ -72,9 +73,12 @@ class Simulation {
         with_outputs_(selection.has_outputs(signals)),
         table_(flow.table()),
         arguments_(arguments),
+        method_(*std::find_if(table_.methods, table_.methods + table_.method_count,
+                              [&arguments](const jourdain_method& m) { return arguments.method == m.name; })),
         bounds_(flow, flow.start(), conserves_energy),
         conserves_energy_(conserves_energy),
-        guard_(guard) {
+        guard_(guard),
+        step_guard_(flow, method_, arguments.step) {
     state_.open = flow.residuals(flow.start());
     state_.first_energy = flow.energy(flow.start());
     for (const std::size_t i : selection.drawn) state_.drawn.push_back({signals.list()[i], {}});
@@ -82,10 +86,7 @@ class Simulation {
 
   /// Steps from the initial state, appending a CSV row every so many steps.
   Trajectory run(long steps, std::string& csv) {
-    const jourdain_method& method =
-        *std::find_if(table_.methods, table_.methods + table_.method_count,
-                      [this](const jourdain_method& m) { return arguments_.method == m.name; });
-    studies::Memory memory = flow_.fresh_memory(method);
+    studies::Memory memory = flow_.fresh_memory(method_);
     state_.end = flow_.start();
     header(csv);
     row(csv);
@@ -95,11 +96,11 @@ class Simulation {
       const Point<double> before = state_.end;
       const studies::Memory memory_before = memory;
       const auto begin = Clock::now();
-      flow_.step(method, state_.end, arguments_.step, block, memory);
+      flow_.step(method_, state_.end, arguments_.step, block, memory);
       state_.stepping_time += seconds_since(begin);
       done += block;
       state_.end.t = static_cast<double>(done) * arguments_.step;
-      if (block > 1) watch_steps(method, before, memory_before, block - 1);
+      if (block > 1) watch_steps(before, memory_before, block - 1);
       if (!state_.breach) watch(block > 1 ? last_ : before, state_.end);
       row(csv);
       progress.show("simulating", static_cast<double>(done) / static_cast<double>(steps));
@@ -116,10 +117,10 @@ class Simulation {
   }
 
   /// Makes the steps of a block again, one by one: the block as a whole is what is timed.
-  void watch_steps(const jourdain_method& method, Point<double> point, studies::Memory memory, long steps) {
+  void watch_steps(Point<double> point, studies::Memory memory, long steps) {
     last_ = point;
     for (long done = 0; done < steps && !state_.breach; ++done) {
-      flow_.step(method, point, arguments_.step, 1, memory);
+      flow_.step(method_, point, arguments_.step, 1, memory);
       watch(last_, point);
       last_ = point;
     }
@@ -129,6 +130,8 @@ class Simulation {
   void watch(const Point<double>& before, const Point<double>& point) {
     if (const std::string what = trouble(point); !what.empty())
       state_.breach = {before, point, what, bounds_.breach(point).empty()};
+    else if (const std::string grown = step_guard_.problem(before, point); !grown.empty())
+      state_.breach = {before, point, grown, true};
     if (conserves_energy_) {
       state_.largest_drift =
           std::max(state_.largest_drift, std::fabs(flow_.energy(point) - state_.first_energy));
@@ -163,9 +166,11 @@ class Simulation {
   bool with_outputs_ = false;
   const jourdain_model_table& table_;
   const SimulateArguments& arguments_;
+  const jourdain_method& method_;
   RunBounds bounds_;
   bool conserves_energy_ = false;
   const LoopGuard* guard_;
+  StepGuard step_guard_;
   Point<double> last_;  ///< before the last step of a block
   Trajectory state_;
 };
@@ -279,12 +284,11 @@ int run(const SimulateArguments& arguments) {
   const std::optional<LoopGuard> guard =
       model->loaded.plan() ? std::optional<LoopGuard>(std::in_place, flow, model->loaded, arguments.step)
                            : std::nullopt;
+  const model::Tangent tangent = programs::displaced_tangent(compiled.facts);
   const Trajectory result =
       Simulation(flow, arguments, conserves, signals, *selection, guard ? &*guard : nullptr).run(*steps, csv);
   if (result.breach) {
-    fmt::print(stderr, "{}",
-               breach_text(flow, programs::displaced_tangent(compiled.facts), *result.breach,
-                           arguments.method, arguments.step));
+    fmt::print(stderr, "{}", breach_text(flow, tangent, *result.breach, arguments.method, arguments.step));
     return kModelWrong;
   }
   const std::string picture =

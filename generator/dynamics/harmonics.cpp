@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
+#include <optional>
 #include <string>
 
 #include "dynamics/high_precision.hpp"
@@ -149,6 +149,20 @@ struct Monomial {
   std::vector<std::string> factors;
 };
 
+std::string function_text(const Ex& call, bool latex) {
+  const std::optional<support::Function> function = kinematics::function_in(call);
+  std::vector<std::string> operands;
+  for (std::size_t i = 0; i < call.nops(); ++i) operands.push_back(to_text(Harmonics(call.op(i)), latex));
+  if (latex && function == support::Function::kWhereNegative)
+    return "\\left(" + latex_cases(operands[0], operands[1], "0") + "\\right)";
+  if (latex && function == support::Function::kWhereNotNegative)
+    return "\\left(" + latex_cases(operands[0], "0", operands[1]) + "\\right)";
+  const std::string name =
+      function ? std::string(support::facts_of(*function).name) : ex_to<GiNaC::function>(call).get_name();
+  return fmt::format(fmt::runtime(latex ? "\\operatorname{{{}}}({})" : "{}({})"), name,
+                     fmt::join(operands, ", "));
+}
+
 std::string factor_text(const Ex& e, bool latex) {
   if (is_a<GiNaC::power>(e)) {
     const double exponent = support::nearest_double(cln::realpart(ex_to<GiNaC::numeric>(e.op(1)).to_cl_N()));
@@ -158,8 +172,8 @@ std::string factor_text(const Ex& e, bool latex) {
     const std::string name = ex_to<GiNaC::symbol>(e).get_name();
     return latex ? latex_name(name) : name;
   }
-  // A sum under a power, or a function of parameters: rare, and printed in GiNaC's words.
-  return fmt::format("({})", (std::ostringstream() << e).str());
+  if (is_a<GiNaC::function>(e)) return function_text(e, latex);
+  return fmt::format("({})", to_text(Harmonics(e), latex));  // a sum under a power
 }
 
 Monomial to_monomial(const Ex& term, bool latex) {
@@ -239,6 +253,12 @@ std::string latex_number(double value) {
                     power = fmt::format("10^{{{}}}", std::stoi(text.substr(e + 1)));
   if (digits == "1" || digits == "-1") return digits.substr(0, digits.size() - 1) + power;
   return digits + " \\cdot " + power;
+}
+
+std::string latex_cases(const std::string& decides, const std::string& negative,
+                        const std::string& otherwise) {
+  return fmt::format("\\begin{{cases}} {} & {} < 0 \\\\ {} & \\text{{otherwise}} \\end{{cases}}", negative,
+                     decides, otherwise);
 }
 
 std::string latex_name(const std::string& name) {

@@ -46,6 +46,10 @@ std::string to_text(const Harmonics& harmonics, bool latex);
 /// "2 \\cdot 10^{-7}" of 2e-07.
 std::string latex_number(double value);
 
+/// What `negative` is where `decides` is negative, and `otherwise` elsewhere.
+std::string latex_cases(const std::string& decides, const std::string& negative,
+                        const std::string& otherwise);
+
 /// "y_{1}" from "y1", "\\mathrm{mass}_{2}" from "mass2".
 std::string latex_name(const std::string& name);
 

@@ -39,6 +39,6 @@ struct Spring {
 };
 
 /// Keeps the direction of a point-to-point force defined at zero length, m.
-inline constexpr double kLengthSmoothing = 1e-9;
+inline constexpr double kLengthSmoothing = 1e-12;
 
 }  // namespace jourdain::model

@@ -111,9 +111,12 @@ class EnsembleInterface {
     }
     return result;
   }
+  /// As the model keeps them.
   static bool are_finite(const double* values, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i)
-      if (!(values[i] - values[i] == 0)) return false;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Real value = static_cast<Real>(values[i]);
+      if (!(value - value == 0)) return false;
+    }
     return true;
   }
 
@@ -282,6 +285,7 @@ class EnsembleInterface {
     if (inputs && is_missing(inputs->values, nu)) return JOURDAIN_WRONG_CALL;
     if (!are_finite(&h, 1) || (inputs && steps > 0 && !are_finite(*inputs, many->count(), steps)))
       return JOURDAIN_NOT_FINITE;
+    if (h != 0 && static_cast<Real>(h) == 0) return JOURDAIN_WRONG_CALL;  // too short for the model's numbers
     try {
       steppers().runs[static_cast<std::size_t>(stepper)](*many, h, steps, threads, inputs);
     } catch (const std::bad_alloc&) {  // before the first step

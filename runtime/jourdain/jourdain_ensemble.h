@@ -36,7 +36,7 @@ typedef struct jourdain_ensemble {
                                   rk4 and rk5 */
 
   /* `count` states as the description starts at these parameters (null: the default ones), inputs zero. Null where
-   * there is no memory, count is 0 or a parameter is not finite. */
+   * there is no memory, count is 0 or a parameter is not finite as the model keeps it. */
   void* (*create)(size_t count, const double* parameters);
   void (*destroy)(void* ensemble); /* null: nothing is done */
 
@@ -53,7 +53,8 @@ typedef struct jourdain_ensemble {
 
   /* `steps` steps of length h, s, by so many threads (0: as many as the machine runs at once). Inputs are held (null),
    * or read before each step and kept as they are at the last one. Answers JOURDAIN_NOT_FINITE only for h or an input,
-   * and has done nothing then: what became of each state, `get_trusted` says. */
+   * as the model keeps them, JOURDAIN_WRONG_CALL also for an h that is 0 there but not here, and has done nothing then:
+   * what became of each state, `get_trusted` says. */
   jourdain_status (*run)(void* ensemble, int stepper, double h, size_t steps, size_t threads,
                          const jourdain_inputs* inputs);
   /* Of each state 1 where all of it was finite after every step since it was set, and its loops were closed, with

@@ -52,7 +52,7 @@ typedef enum jourdain_quantity {
 typedef enum jourdain_status {
   JOURDAIN_OK = 0,
   JOURDAIN_WRONG_CALL = 1, /* a null pointer, or something that the model does not have; nothing was done */
-  JOURDAIN_NOT_FINITE = 2, /* a number that was given or computed is not finite */
+  JOURDAIN_NOT_FINITE = 2, /* a number that was given, as the model keeps it, or computed is not finite */
   JOURDAIN_LOOPS_OPEN = 3  /* it cannot be trusted that the loops of the mechanism are closed */
 } jourdain_status;
 
@@ -99,7 +99,8 @@ typedef struct jourdain_stepper {
   int order;
   int remembers; /* 1: set_state and set_inputs start it anew, steps by others and of another length too */
   long operations;
-  /* `count` steps of length h, s, inputs held; ends at the first that does not answer JOURDAIN_OK. */
+  /* `count` steps of length h, s, inputs held; ends at the first that does not answer JOURDAIN_OK. A wrong call: an h
+   * that is 0 as the model keeps it, but not here. */
   jourdain_status (*step)(void* instance, double h, long count);
 } jourdain_stepper;
 

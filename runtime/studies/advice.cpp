@@ -19,8 +19,8 @@ bool is_unstable(const MotionFacts& facts, std::size_t method, double h) {
 class Trials {
  public:
   Trials(const Flow<double>& flow, double sampling, const ReferenceSolution& reference,
-         const MotionFacts& facts)
-      : flow_(flow), sampling_(sampling), reference_(reference), facts_(facts) {}
+         const MotionFacts& facts, const Question& question)
+      : flow_(flow), sampling_(sampling), reference_(reference), facts_(facts), question_(question) {}
 
   double sampling() const { return sampling_; }
 
@@ -33,7 +33,7 @@ class Trials {
 
   /// A run that is compared after each step. One that errs by more where the steps meet the reference needs no other.
   bool keeps(std::size_t method, double h, double tolerance) {
-    if (is_unstable(facts_, method, h)) return false;
+    if (is_unstable(facts_, method, h) || !allows_step(question_, h)) return false;
     const auto keep = [tolerance](const WorkPoint& point) {
       return point.finite && point.largest.position <= tolerance;
     };
@@ -66,6 +66,7 @@ class Trials {
   double sampling_;
   const ReferenceSolution& reference_;
   const MotionFacts& facts_;
+  const Question& question_;
   std::map<long, std::optional<ReferenceSolution>> others_;  ///< by steps in a sampling
 };
 
@@ -187,6 +188,8 @@ bool keeps_within(const Question& question, const WorkPoint& point) {
                             : point.run_time * question.period <= *question.budget;
 }
 
+bool allows_step(const Question& question, double h) { return h <= 1.001 * question.longest; }
+
 bool divides_period(const Question& question, double h) {
   const double steps = question.period / h;
   return std::fabs(steps - std::round(steps)) < 1e-9 * steps;
@@ -201,7 +204,7 @@ std::optional<Advice> advise(const Question& asked, const WorkPrecision& study, 
       best_points(question, study.points, points_that_miss(question, study, flow, reference, facts), facts);
   if (candidates.empty()) return {};
   Advice advice;
-  Trials trials(flow, sampling, reference, facts);
+  Trials trials(flow, sampling, reference, facts, question);
   if (question.tolerance) {
     std::tie(advice.method, advice.h) = cheapest(candidates, *question.tolerance, trials, reference);
   } else {

@@ -1,6 +1,7 @@
 // Which method and step to take, confirmed by a run.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string>
 
@@ -13,8 +14,12 @@ namespace jourdain::studies {
 struct Question {
   std::optional<double> tolerance;  ///< largest position error along the way, rad or m
   std::optional<double> budget;     ///< s of run time per `period`
-  double period = 1e-3;  ///< s of simulated time; with a budget, whole numbers of steps make a period
+  double period = 1e-3;       ///< s of simulated time; with a budget, whole numbers of steps make a period
+  double longest = INFINITY;  ///< s; no longer step is tried, nor recommended
 };
+
+/// Is the step (s) none beyond the longest?
+bool allows_step(const Question& question, double h);
 
 /// Does the point keep within what is asked for? With a budget, whatever its step.
 bool keeps_within(const Question& question, const WorkPoint& point);

@@ -232,8 +232,11 @@ std::vector<std::string> remarks(const jourdain_model_table& table, const Study&
   if (study.longer > 1e-3 * duration)
     list.push_back(fmt::format("the time is {} instead of {}: whole longest steps, four at least",
                                time_text(duration), time_text(duration - study.longer)));
-  list.push_back(fmt::format("reference: {}; its own error is {:.1e} (difference to a looser tolerance)",
-                             study.reference.method, study.reference.error));
+  list.push_back(
+      fmt::format("reference: {}; its own error is {:.1e} of any entry of the state, over 1 + |entry|, and "
+                  "{:.1e} rad or m of "
+                  "positions (difference to a looser tolerance)",
+                  study.reference.method, study.reference.error, study.reference.position_error));
   if (!study.loops.empty())
     list.push_back(fmt::format(
         "the reference moves all positions by their rates and closes the loops after each {}; there they are "

@@ -3,6 +3,8 @@
 #include <Eigen/Eigenvalues>
 #include <unsupported/Eigen/MatrixFunctions>
 
+#include <cmath>
+
 #include "reference/decompositions.hpp"
 
 namespace jourdain::studies {
@@ -12,6 +14,25 @@ using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 
 namespace {
+
+/// Of A over about its largest entry, so that nothing overflows; values that are not found are not numbers.
+struct ScaledSpectrum {
+  explicit ScaledSpectrum(const MatrixXd& A, bool with_vectors = true) {
+    const double largest = A.size() > 0 ? A.cwiseAbs().maxCoeff() : 0;
+    const double scale = largest > 0 ? std::ldexp(1.0, std::ilogb(largest)) : 1;
+    const Eigen::EigenSolver<MatrixXd> solver(A / scale, with_vectors);
+    if (solver.info() == Eigen::Success) {
+      values = scale * solver.eigenvalues();
+      if (with_vectors) vectors = solver.eigenvectors();
+      return;
+    }
+    values = VectorXcd::Constant(A.rows(), NAN);
+    vectors = MatrixXcd::Identity(A.rows(), A.rows());
+  }
+
+  VectorXcd values;
+  MatrixXcd vectors;
+};
 
 /// (Re −Im; Im Re): what it does to (Re x; Im x) is what A does to x.
 MatrixXd real_form(const MatrixXcd& A) {
@@ -23,13 +44,11 @@ MatrixXd real_form(const MatrixXcd& A) {
 }  // namespace
 
 Spectrum spectrum(const MatrixXd& A) {
-  const Eigen::EigenSolver<MatrixXd> solver(A);
-  return {solver.eigenvalues(), solver.eigenvectors()};
+  const ScaledSpectrum scaled(A);
+  return {scaled.values, scaled.vectors};
 }
 
-double spectral_radius(const MatrixXd& A) {
-  return Eigen::EigenSolver<MatrixXd>(A, false).eigenvalues().cwiseAbs().maxCoeff();
-}
+double spectral_radius(const MatrixXd& A) { return ScaledSpectrum(A, false).values.cwiseAbs().maxCoeff(); }
 
 double spectral_radius(const MatrixXcd& A) { return spectral_radius(real_form(A)); }
 

@@ -7,7 +7,7 @@
 
 namespace jourdain::studies {
 
-/// Eigenvalues and right eigenvectors, column by column of length 1.
+/// Eigenvalues, which are not numbers where they are not found, and right eigenvectors, column by column of length 1.
 struct Spectrum {
   Eigen::VectorXcd values;
   Eigen::MatrixXcd vectors;

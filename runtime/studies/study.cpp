@@ -216,7 +216,8 @@ Study run_study(const model::Mechanism& mechanism, const model::Tangent& tangent
   progress("nearby trajectories", 0);
   study.divergence = measure_divergence(flow, study.reference.points, sampling,
                                         trajectory_rate(flow, study.reference, tangent));
-  const std::vector<double> longer = longer_steps(study.reference, sampling);
+  std::vector<double> longer = longer_steps(study.reference, sampling);
+  std::erase_if(longer, [&](double h) { return !allows_step(options.question, h); });
   study.steps.insert(study.steps.begin(), longer.begin(), longer.end());
   const std::vector<double> held = flow.inputs().at(0.0);
   study.work = study_work_precision(flow, study.steps, sampling, study.reference, options.conserves_energy,

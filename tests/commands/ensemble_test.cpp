@@ -210,6 +210,21 @@ TEST_F(EnsembleCommand, RefusesWhatItCannotDraw) {
          "it follows from others");
 }
 
+/// Not of the value that the description has.
+TEST_F(EnsembleCommand, NamesTheValueThatADescriptionIsWrongAt) {
+  std::string rooted = kSlowing + std::string("[[force]]\njoint = \"rail\"\nvalue = \"rail*sqrt(c)\"\n");
+  rooted.replace(rooted.find("[parameters]"), 12, "[parameters]\nc = 1");
+  support::write_file(model_, rooted);
+  for (const std::vector<std::string>& options :
+       {std::vector<std::string>{"--spread", "c=uniform(3)"}, {"--set", "c=-1"}}) {
+    const support::ProcessResult result = run(options);
+    EXPECT_NE(result.status, 0);
+    EXPECT_NE(result.output.find("has no finite value at the parameters' values"), std::string::npos)
+        << result.output;
+    EXPECT_EQ(result.output.find("default"), std::string::npos) << result.output;
+  }
+}
+
 TEST_F(EnsembleCommand, NeedsSomethingThatMoves) {
   std::string driven = kSlowing;
   driven.replace(driven.find("initial_velocity = 3.0"), 22, "motion = \"0.1*sin(t)\"");

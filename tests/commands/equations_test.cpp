@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -108,6 +109,49 @@ TEST(Equations, NameNoTwoValuesAlike) {
       }
       EXPECT_GT(count, 20u) << model;
     }
+}
+
+/// Of expanded equations and of values on the way.
+TEST(Equations, SayWhatChoices) {
+  const support::TemporaryFolder folder;
+  const std::string model = folder.path() + "/slider.toml";
+  support::write_file(
+      model,
+      "[model]\nname = \"slider\"\n[parameters]\na = 2\nc = 3\n[[body]]\nname = \"b\"\nmass = \"1 + if(a < "
+      "1, c, 2)\"\n[[joint]]\nname = \"s\"\ntype = \"prismatic\"\nparent = \"world\"\nchild = "
+      "\"b\"\nstiffness = \"max(a, c)*0.5\"\n");
+  const support::ProcessResult plain = jourdain({"equations", model});
+  const std::string meanings =
+      "  where_negative(a, b): b where a < 0, else 0\n  where_not_negative(a, b): 0 where a < 0, else b\n";
+  expect(plain, 0, "Expanded\n" + meanings);
+  expect(plain, 0, "mass_matrix with named intermediates\n" + meanings);
+  expect(plain, 0, " = 1 + where_negative(-1 + a, c) + where_not_negative(-1 + a, 2)\n");
+  expect(plain, 0, "0.5*max(a, c)*y0");
+  const support::ProcessResult latex = jourdain({"equations", model, "--latex"});
+  for (const char* part :
+       {"\\left(\\begin{cases} c & -1 + a < 0 \\\\ 0 & \\text{otherwise} \\end{cases}\\right)",
+        " &= \\begin{cases} 0 & t_{4} < 0 \\\\ 2 & \\text{otherwise} \\end{cases} \\\\\n",
+        "\\operatorname{max}(a, c)"})
+    expect(latex, 0, part);
+  for (const support::ProcessResult& result : {plain, latex})
+    EXPECT_EQ(result.output.find("jourdain_"), std::string::npos) << result.output;
+  EXPECT_EQ(latex.output.find("where"), std::string::npos) << latex.output;
+}
+
+/// "l 2" would be set as "l2".
+TEST(Equations, PutADotBeforeANumberThatFollows) {
+  const std::regex number("[A-Za-z0-9})] [0-9]");
+  for (const char* model : {"bicycle", "crane", "rolling_ball", "hoop_bead"}) {
+    const support::ProcessResult result =
+        jourdain({"equations", fmt::format("models/{}.toml", model), "--latex"});
+    expect(result, 0, "} \\cdot ");
+    std::istringstream lines(result.output);
+    for (std::string line; std::getline(lines, line);) {
+      if (line.find(" &= ") == std::string::npos) continue;
+      const std::string without = std::regex_replace(line, std::regex(R"( \\cdot )"), "*");
+      EXPECT_FALSE(std::regex_search(without, number)) << model << ": " << line;
+    }
+  }
 }
 
 }  // namespace

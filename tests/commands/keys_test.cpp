@@ -47,5 +47,17 @@ TEST(Keys, OfOneSectionArePrintedAlone) {
   EXPECT_EQ(keys({"hinge"}).status, 2);
 }
 
+TEST(Manual, SaysWhoRunsCompilersAndWhatAnInterruptionEndsWith) {
+  const support::TemporaryFolder folder;
+  ASSERT_EQ(support::run_process({JOURDAIN_BINARY, "pages", folder.path()}).status, 0);
+  const std::string page = support::read_file(folder.path() + "/man/man1/jourdain.1");
+  const std::size_t three = page.find(".B 3\n"), seventy = page.find(".B 70\n"),
+                    compiler = page.find(".B CXX\n");
+  ASSERT_LT(compiler, page.size());
+  EXPECT_THAT(page.substr(three, seventy - three), testing::HasSubstr("SIGTERM"));
+  for (const char* command : {"simulate", "ensemble", "report", "cost", "bench", "python"})
+    EXPECT_THAT(page.substr(compiler, page.find(".B CC\n") - compiler), testing::HasSubstr(command));
+}
+
 }  // namespace
 }  // namespace jourdain::tests

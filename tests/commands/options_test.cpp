@@ -120,5 +120,16 @@ TEST(Options, DurationsAreWholeStepsOrToldSo) {
   expect(simulate("1", "3"), 2, "is 0.333 steps; between 1 and 1e+09 are possible");
 }
 
+TEST(Options, OfParametersSayTheirUnits) {
+  for (const std::string command : {"simulate", "ensemble", "report"})
+    expect(jourdain({command, "--help"}), 0, "NAME=VALUE, in SI units whatever unit it declares");
+  for (const std::string part :
+       {"about its value, in SI units whatever unit it declares", "an input (NAME_input)",
+        "a share of the value, of parameters and inputs alone that are not zero"})
+    expect(jourdain({"ensemble", "--help"}), 0, part);
+  expect(jourdain({"report", "--help"}), 0,
+         "Longer ones are tried and recommended only where this is not given");
+}
+
 }  // namespace
 }  // namespace jourdain::tests

@@ -105,5 +105,27 @@ TEST_F(Outputs, BeyondALimitOfSizeAreAnErrorThatLeavesNothing) {
   EXPECT_FALSE(std::filesystem::exists(path("out")));
 }
 
+TEST_F(Outputs, HaveNames) {
+  const std::string model = pendulum_as("pendulum.toml"), out = path("out");
+  const std::vector<std::vector<std::string>> commands = {{"simulate", model, "--output"},
+                                                          {"simulate", model, "--inputs"},
+                                                          {"ensemble", model, "--output"},
+                                                          {"ensemble", model, "--plot"},
+                                                          {"merge", path("all.h5"), path("1.h5"), "--plot"},
+                                                          {"compile", model, "-o"},
+                                                          {"compile", model, "-o", out, "--depfile"},
+                                                          {"check", model, "--against"},
+                                                          {"report", model, "-o"},
+                                                          {"fmu", model, "-o"},
+                                                          {"python", model, "-o"},
+                                                          {"wrap", model, "--for", "casadi", "-o"},
+                                                          {"cost", model, "-o"}};
+  for (std::vector<std::string> command : commands) {
+    command.emplace_back("");
+    expect(jourdain(command), 2, ": the name is empty");
+  }
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
 }  // namespace
 }  // namespace jourdain::tests

@@ -209,7 +209,7 @@ free_length = 0.35
   const EquationsAt e = equations_at(scene, {{x}, {dx}});
   EXPECT_NEAR(std::hypot(x, h), L, kRounding);
   const double tension = k * (L - L0) + damping * dx * x / L;
-  EXPECT_NEAR(e.q_bar[0], tension * x / L, 1e-12);  // lengths are smoothed over 1e-9 m
+  EXPECT_NEAR(e.q_bar[0], tension * x / L, 1e-12);  // lengths are smoothed over 1e-12 m
   EXPECT_NEAR(e.potential_energy, k * (L - L0) * (L - L0) / 2, 1e-12);
 }
 

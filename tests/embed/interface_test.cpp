@@ -617,5 +617,21 @@ TEST(Interface, ParametersAtWhichLoopsAreNotProvenToCloseAreNotTaken) {
   }
 }
 
+TEST(Interface, OfFloatsTakesNoStepThatIsZeroThere) {
+  for (const bool is_float : {false, true}) {
+    const Loaded loaded("pendulum", is_float);
+    ASSERT_TRUE(loaded.table);
+    const jourdain_interface& table = *loaded.table;
+    ASSERT_GT(table.stepper_count, 0);
+    Instance one(table);
+    const auto step = [&](double h) { return table.steppers[0].step(one.self, h, 1); };
+    EXPECT_EQ(step(1e-50), is_float ? JOURDAIN_WRONG_CALL : JOURDAIN_OK);
+    EXPECT_EQ(step(0), JOURDAIN_OK);
+    if (is_float) {
+      EXPECT_EQ(step(1e39), JOURDAIN_NOT_FINITE);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace jourdain::tests

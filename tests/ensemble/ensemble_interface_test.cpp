@@ -242,5 +242,29 @@ TEST(EnsembleInterface, RefusesWhatCannotBeMeant) {
   EXPECT_EQ(many.y, before);
 }
 
+/// As the model keeps them.
+TEST(EnsembleInterface, OfFloatsTakesNoNumberThatFloatHasNoRoomFor) {
+  constexpr double large = 1e39, small = 1e-50;
+  const jourdain_ensemble& table = *cart_pole_f_table();
+  std::vector<double> parameters(numbers(table.parameter_count), 1);
+  parameters.back() = large;
+  EXPECT_EQ(table.create(kStates, parameters.data()), nullptr);
+  Tabled many(&table);
+  const std::vector<double> before = many.y;
+  EXPECT_EQ(table.set_parameters(many.pointer, 0, 1, parameters.data()), JOURDAIN_NOT_FINITE);
+  EXPECT_EQ(table.set_inputs(many.pointer, 0, 1, &large), JOURDAIN_NOT_FINITE);
+  const jourdain_inputs inputs = {&large, 0, 0};
+  EXPECT_EQ(table.run(many.pointer, 0, kLength, 1, 1, &inputs), JOURDAIN_NOT_FINITE);
+  EXPECT_EQ(table.run(many.pointer, 0, large, 1, 1, nullptr), JOURDAIN_NOT_FINITE);
+  EXPECT_EQ(table.run(many.pointer, 0, small, 1, 1, nullptr), JOURDAIN_WRONG_CALL);
+  EXPECT_EQ(table.run(many.pointer, 0, 0, 1, 1, nullptr), JOURDAIN_OK);
+  many.y[2 * 5] = large;
+  EXPECT_EQ(many.write(), JOURDAIN_NOT_FINITE);
+  many.read();
+  EXPECT_EQ(many.y, before);
+  Tabled of_double(cart_pole_table());
+  EXPECT_EQ(of_double.table->run(of_double.pointer, 0, small, 1, 1, nullptr), JOURDAIN_OK);
+}
+
 }  // namespace
 }  // namespace jourdain::tests

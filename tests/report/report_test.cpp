@@ -319,7 +319,7 @@ TEST(Report, InputsThatAreHeldCostAnOrder) {
   EXPECT_GT(advice["largest_error_with_inputs_held"]["position"].get<double>(),
             100 * advice["largest_error"]["position"].get<double>());
   EXPECT_NE(text.find("held over each step, position error"), std::string::npos);
-  EXPECT_GT(advice["step_s"].get<double>(), 0.017);  // beyond the longest step that was named
+  EXPECT_GT(advice["step_s"].get<double>(), 0.017);  // beyond the usual longest step
   const fs::path out = folder.path() + "/out";
   for (const char* name : {"report.html", "error_sources.csv", "error_sources_rk4.svg", "mine.csv"})
     support::write_file((out / name).string(), "of an older report, or mine");
@@ -465,6 +465,90 @@ TEST(Report, RecommendsAStepForATyreOnABump) {
   EXPECT_TRUE(advice["confirmed"].get<bool>());
   EXPECT_LE(advice["largest_error"]["position"].get<double>(), 1e-3);
   EXPECT_NE(result.output.find("a run confirms it:"), std::string::npos) << result.output;
+}
+
+/// A wheel that rolls straight ahead over ground with a height: nothing pushes its tyre sideways.
+TEST(Report, ComparesNothingWithRowsThatAreZeroBySymmetry) {
+  const support::TemporaryFolder folder;
+  const std::string path = folder.path() + "/wheel.toml";
+  support::write_file(path, R"toml([model]
+name = "wheel"
+gravity = [0, 0, -9.81]
+[parameters]
+k = 2e5
+[[body]]
+name = "hub"
+mass = 20
+[[body]]
+name = "wheel"
+mass = 15
+inertia = [0.5, 1, 0.5]
+[[joint]]
+name = "x"
+type = "prismatic"
+parent = "world"
+child = "hub"
+axis = [1, 0, 0]
+initial_velocity = 10
+[[joint]]
+name = "spin"
+type = "revolute"
+parent = "hub"
+child = "wheel"
+axis = [0, 1, 0]
+position = [0, 0, 0.29]
+initial_velocity = 33.3
+[[tyre]]
+name = "t"
+frame = "wheel"
+radius = 0.3
+stiffness = "k"
+height = "0.01*sin(x)"
+friction = 0.9
+relaxation_length = 0.3
+stiffness_factor = [12, 10]
+shape_factor = [1.6, 1.3]
+)toml");
+  const auto result = jourdain({"report", path, "--duration", "0.2s", "--halvings", "2", "--methods", "rk4",
+                                "--no-forms", "--no-plots", "--effort", "0.2", "-o", folder.path() + "/out"});
+  ASSERT_EQ(result.status, 0) << result.output;
+  const json sweeps = json::parse(support::read_file(folder.path() + "/out/report.json"))["extremes"];
+  ASSERT_EQ(sweeps.size(), 3u);
+  for (const json& sweep : sweeps)
+    for (const json& point : sweep["points"]) {
+      EXPECT_GT(point["backward_u"].get<double>(), 0) << sweep["quantity"] << " " << point["factor"];
+      // The wheel's own row holds what rounding leaves of the normal force's moment, however slow it turns.
+      const double most = sweep["quantity"] == "all velocities" ? 1e9 : 100;
+      EXPECT_LE(point["backward_u"].get<double>(), most) << sweep["quantity"] << " " << point["factor"];
+    }
+}
+
+/// A control loop may have no longer one.
+TEST(Report, RecommendsNoStepBeyondTheOneThatIsGiven) {
+  const support::TemporaryFolder folder;
+  const auto report = [&](const std::string& longest) {
+    std::vector<std::string> arguments = {"report",      model("pendulum"),
+                                          "--tolerance", "0.1",
+                                          "--halvings",  "2",
+                                          "--methods",   "rk4",
+                                          "--effort",    "0.3",
+                                          "--no-forms",  "--no-plots",
+                                          "--reference", "cvode",
+                                          "-o",          folder.path() + "/out"};
+    if (!longest.empty()) arguments.insert(arguments.end(), {"--longest-step", longest});
+    const support::ProcessResult result = jourdain(arguments);
+    EXPECT_EQ(result.status, 0) << result.output;
+    const json all = json::parse(support::read_file(folder.path() + "/out/report.json"));
+    double tried = 0;
+    for (const json& p : all["points"]) tried = std::max(tried, p["step_s"].get<double>());
+    return std::pair(all["recommendation"]["step_s"].get<double>(), tried);
+  };
+  const auto [advised, tried] = report("20ms");
+  EXPECT_NEAR(advised, 0.02, 1e-12);
+  EXPECT_NEAR(tried, 0.02, 1e-12);
+  const auto [free_advised, free_tried] = report("");
+  EXPECT_GT(free_advised, 0.03);
+  EXPECT_GT(free_tried, 0.03);
 }
 
 }  // namespace

@@ -23,9 +23,9 @@ class NumberCheck {
 
   /// The value at the parameters' defaults; a diagnostic if it is not finite.
   double value(const Expression& expression, const SourceRange& where, const std::string& what) {
-    const double result = expression.evaluate<double>(values_);
+    const auto result = expression.evaluate<double>(values_);
     if (!std::isfinite(result))
-      diagnostics_.error(where, fmt::format("{} is {} at the parameters' default values", what,
+      diagnostics_.error(where, fmt::format("{} is {} at the parameters' values", what,
                                             std::isnan(result) ? "not a number" : "infinite"));
     return result;
   }

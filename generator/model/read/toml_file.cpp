@@ -173,8 +173,7 @@ Expression TomlFile::parsed(const toml::value<std::string>& text, const Place& p
   Expression in_si_units = in_unit(*of_parameters, measure, range(text.source()), place);
   if (!expression.has_no_variable()) {
     if (in_si_units.has_undefined_part(values_))
-      return number_error(range(text.source()),
-                          "a part of it has no finite value at the parameters' default values");
+      return number_error(range(text.source()), "a part of it has no finite value at the parameters' values");
     return in_si_units;
   }
   if (expression.calls(support::Function::kCall))
@@ -183,7 +182,7 @@ Expression TomlFile::parsed(const toml::value<std::string>& text, const Place& p
   const double at_defaults = value(in_si_units);
   if (!std::isfinite(at_defaults))
     return number_error(range(text.source()),
-                        fmt::format("the value is {} at the parameters' default values",
+                        fmt::format("the value is {} at the parameters' values",
                                     std::isnan(at_defaults) ? "not a number" : "infinite"));
   return in_si_units;
 }

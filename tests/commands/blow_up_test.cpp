@@ -1,0 +1,111 @@
+// Motions that end in a finite time, which no step goes beyond, and stiff ones, which a step may leave unresolved.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "commands/run_jourdain.hpp"
+#include "support/files.hpp"
+#include "support/process.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace jourdain::tests {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A body of `mass` (kg) on a slide from `at` (m), with more keys of the joint, and a force on it.
+std::string pushed_slide(const std::string& mass, const std::string& at, const std::string& keys,
+                         const std::string& force) {
+  return "[model]\nname = \"pushed\"\ngravity = [0, 0, 0]\n[[body]]\nname = \"a\"\nmass = " + mass +
+         "\n[[joint]]\nname = \"x\"\ntype = \"prismatic\"\nparent = \"world\"\nchild = \"a\"\naxis = [1, 0, "
+         "0]\n"
+         "initial_position = " +
+         at + "\n" + keys + "[[force]]\njoint = \"x\"\nvalue = \"" + force + "\"\n";
+}
+
+class PushedScene {
+ public:
+  explicit PushedScene(const std::string& scene) {
+    support::write_file(folder_.path() + "/scene.toml", scene);
+  }
+
+  support::ProcessResult simulate(const std::string& method, const std::string& step,
+                                  const std::string& duration) const {
+    return jourdain({"simulate", folder_.path() + "/scene.toml", "--method", method, "--step", step,
+                     "--duration", duration, "--output", csv()});
+  }
+  std::string csv() const { return folder_.path() + "/x.csv"; }
+
+ private:
+  support::TemporaryFolder folder_;
+};
+
+/// x'' = exp(x) from x = 1 at rest: x goes to infinity at t = pi/sqrt(2 e) = 1.3474 s.
+TEST(BlowUp, IsNotSteppedAcross) {
+  const PushedScene run(pushed_slide("1", "1", "", "exp(x)"));
+  for (const char* method : {"rk4", "rodas4", "linearly_implicit_euler"})
+    for (const char* step : {"0.002", "0.0003", "0.00005"}) {
+      const support::ProcessResult result = run.simulate(method, step, "2");
+      EXPECT_EQ(result.status, 1) << method << " " << step;
+      EXPECT_NE(result.output.find("grows"), std::string::npos)
+          << method << " " << step << ": " << result.output;
+      EXPECT_NE(result.output.find("so does the motion"), std::string::npos) << result.output;
+      EXPECT_EQ(result.output.find("rodas4"), std::string::npos) << "no method helps: " << result.output;
+      EXPECT_FALSE(fs::exists(run.csv()));
+    }
+  EXPECT_EQ(run.simulate("rodas4", "0.002", "1.2").status, 0);
+}
+
+/// A plate of micrometres that pulls itself in: the gap of 2 um closes after 24 us.
+TEST(BlowUp, OfMicrometresIsNotSteppedAcross) {
+  const PushedScene run(
+      pushed_slide("1e-9", "0", "stiffness = 1\ndamping = 1e-6\n", "8.854e-12*1e-8*20^2/(2*(2e-6 - x)^2)"));
+  for (const char* method : {"rk4", "rodas4"})
+    for (const char* step : {"3e-7", "1e-7", "1e-8"}) {
+      const support::ProcessResult result = run.simulate(method, step, "1e-4");
+      EXPECT_EQ(result.status, 1) << method << " " << step;
+      EXPECT_NE(result.output.find("at t = 2."), std::string::npos) << method << " " << step << result.output;
+    }
+  EXPECT_EQ(run.simulate("rk4", "1e-7", "2e-5").status, 0);
+}
+
+/// Slopes whose squares are no numbers any more.
+TEST(BlowUp, OfHugeStiffnessIsAnError) {
+  for (const char* force : {"-1e200*x", "-1e155*x", "1e200*x"}) {
+    const PushedScene run(pushed_slide("1", "1", "", force));
+    const support::ProcessResult result = run.simulate("rk4", "0.001", "1");
+    EXPECT_EQ(result.status, 1) << force << result.output;
+    EXPECT_NE(result.output.find("the run leaves all bounds"), std::string::npos) << result.output;
+  }
+}
+
+support::ProcessResult simulate_model(const std::string& model, const std::string& method,
+                                      const std::string& step) {
+  const support::TemporaryFolder folder;
+  return jourdain({"simulate", "models/" + model + ".toml", "--method", method, "--step", step, "--duration",
+                   "3", "--output", folder.path() + "/x.csv"});
+}
+
+/// A block that bristles hold flew off at 800 m/s after such steps.
+TEST(BlowUp, OfAStepThatIsFarTooLongIsAnError) {
+  const support::ProcessResult result = simulate_model("block_on_slope", "linearly_implicit_euler", "0.01");
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.output.find("does not follow the motion"), std::string::npos) << result.output;
+  EXPECT_EQ(simulate_model("block_on_slope", "linearly_implicit_euler", "0.0001").status, 0);
+}
+
+/// What is stiff, or starts, changes much in a step, too.
+TEST(BlowUp, IsNotSeenInStiffMotions) {
+  for (const auto& [model, method, step] :
+       {std::array{"elastic_arm", "rodas4", "0.01"}, std::array{"flyball_governor", "rodas4", "0.02"},
+        std::array{"contact_wheel", "linearly_implicit_euler", "0.02"}}) {
+    const support::ProcessResult result = simulate_model(model, method, step);
+    EXPECT_EQ(result.status, 0) << model << result.output;
+  }
+}
+
+}  // namespace
+}  // namespace jourdain::tests
