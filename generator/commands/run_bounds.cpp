@@ -121,7 +121,8 @@ std::string step_limit_text(const Flow<double>& flow, const Point<double>& point
                      point.t, mode_text(worst));
 }
 
-/// What grows at `point` as fast as anything decays there, faster than steps of length `h` follow: no method does.
+/// What grows at `point` about as fast as anything decays there, and by more than exp(1/2) in a step of length `h`:
+/// another method follows it no better.
 std::string growth_limit_text(const Flow<double>& flow, const Point<double>& point,
                               const model::Tangent& tangent, double h) {
   constexpr double kAsFast = 0.5;
@@ -158,6 +159,12 @@ bool is_singular(const Flow<double>& flow, const Point<double>& point, double h)
 
 std::string breach_text(const Flow<double>& flow, const model::Tangent& tangent, const Breach& breach,
                         const std::string& method, double h) {
+  std::string why = breach.is_explained && !breach.is_of_step
+                        ? std::string()
+                        : step_limit_text(flow, flow.start(), tangent, method, h);
+  if (breach.is_of_step && !why.empty())
+    return fmt::format("error: a step of {:g} s is too long: {}; take a shorter one or --method rodas4\n", h,
+                       why);
   if (breach.is_explained) return fmt::format("error: {}\n", breach.what);
   if (is_singular(flow, breach.last, h))
     return fmt::format(
@@ -165,7 +172,6 @@ std::string breach_text(const Flow<double>& flow, const model::Tangent& tangent,
         "there, or "
         "a force has no value\n",
         breach.last.t);
-  std::string why = step_limit_text(flow, flow.start(), tangent, method, h);
   const std::string growth = why.empty() ? growth_limit_text(flow, breach.last, tangent, h) : std::string();
   if (why.empty()) why = step_limit_text(flow, breach.last, tangent, method, h);
   const std::string verdict =

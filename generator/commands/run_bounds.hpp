@@ -41,7 +41,8 @@ class RunBounds {
 struct Breach {
   studies::Point<double> last, end;  ///< one step apart; within and out of bounds
   std::string what;                  ///< as RunBounds::breach says, LoopGuard::problem or StepGuard::problem
-  bool is_explained = false;         ///< one of the latter
+  bool is_explained = false;         ///< one of the latter two
+  bool is_of_step = false;           ///< the last
 };
 
 /// The error message: where and how, and why. Either rates are not finite at `last` or half a step or one from

@@ -100,8 +100,10 @@ class Simulation {
       state_.stepping_time += seconds_since(begin);
       done += block;
       state_.end.t = static_cast<double>(done) * arguments_.step;
-      if (block > 1) watch_steps(before, memory_before, block - 1);
-      if (!state_.breach) watch(block > 1 ? last_ : before, state_.end);
+      if (block > 1)
+        watch_steps(before, memory_before, block);
+      else
+        watch(before, state_.end);
       row(csv);
       progress.show("simulating", static_cast<double>(done) / static_cast<double>(steps));
     }
@@ -118,11 +120,10 @@ class Simulation {
 
   /// Makes the steps of a block again, one by one: the block as a whole is what is timed.
   void watch_steps(Point<double> point, studies::Memory memory, long steps) {
-    last_ = point;
     for (long done = 0; done < steps && !state_.breach; ++done) {
+      const Point<double> last = point;
       flow_.step(method_, point, arguments_.step, 1, memory);
-      watch(last_, point);
-      last_ = point;
+      watch(last, point);
     }
   }
 
@@ -131,7 +132,7 @@ class Simulation {
     if (const std::string what = trouble(point); !what.empty())
       state_.breach = {before, point, what, bounds_.breach(point).empty()};
     else if (const std::string grown = step_guard_.problem(before, point); !grown.empty())
-      state_.breach = {before, point, grown, true};
+      state_.breach = {before, point, grown, true, true};
     if (conserves_energy_) {
       state_.largest_drift =
           std::max(state_.largest_drift, std::fabs(flow_.energy(point) - state_.first_energy));
@@ -171,7 +172,6 @@ class Simulation {
   bool conserves_energy_ = false;
   const LoopGuard* guard_;
   StepGuard step_guard_;
-  Point<double> last_;  ///< before the last step of a block
   Trajectory state_;
 };
 

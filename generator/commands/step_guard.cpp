@@ -15,11 +15,15 @@ using studies::Point;
 namespace {
 
 constexpr double kMuch = 0.5;     // of the largest velocity that there was
-constexpr double kPushed = 0.25;  // of it, by a step at the acceleration before
+constexpr double kPushed = 0.25;  // of a velocity, by a step at the acceleration before
 constexpr double kGrowth = 0.5;   // in a step, as an exponent
-constexpr double kMissed = 0.1;   // of a change
-constexpr long kFirst = 4;        // steps, which change all there is where a motion starts from rest
-constexpr int kParts[] = {4, 16, 64};
+constexpr double kFarOff = 10;    // times what there was
+constexpr int kParts[] = {64, 250, 1000};
+constexpr long kFirst = 4;       // steps or parts, which change all there is where a motion starts from rest
+constexpr double kMissed = 0.1;  // of a change
+/// Growth itself grows so many times in a step, and is so fast after it, where a motion ends within the step or soon
+/// after: as 1/(the time that is left).
+constexpr double kFaster = 3, kFast = 2.5;
 /// Velocities below this share of the largest one are rounding.
 constexpr double kRounding = 1e-9;
 
@@ -27,47 +31,51 @@ constexpr double kRounding = 1e-9;
 
 StepGuard::StepGuard(const Flow<double>& flow, const jourdain_method& method, double h)
     : flow_(flow), method_(method), h_(h) {
-  const std::vector<double>& x = flow.start().x;
-  for (std::size_t k = flow.position_count(); k < x.size(); ++k) fastest_.push_back(std::fabs(x[k]));
+  fastest_.resize(flow.size() - flow.position_count());
+  remember(flow.start().x.data() + flow.position_count());
 }
 
-std::vector<std::size_t> StepGuard::changed_much(const double* before, const double* after) {
+void StepGuard::remember(const double* z) {
+  for (std::size_t k = 0; k < fastest_.size(); ++k) fastest_[k] = std::max(fastest_[k], std::fabs(z[k]));
+}
+
+std::vector<std::size_t> StepGuard::changed_much(const double* before, const double* after) const {
   const double least = fastest_.empty() ? 0 : kRounding * *std::max_element(fastest_.begin(), fastest_.end());
   std::vector<std::size_t> changed;
-  for (std::size_t k = 0; k < fastest_.size(); ++k) {
+  for (std::size_t k = 0; k < fastest_.size(); ++k)
     if (std::fabs(after[k] - before[k]) > kMuch * std::max(fastest_[k], least)) changed.push_back(k);
-    fastest_[k] = std::max(fastest_[k], std::fabs(after[k]));
-  }
   return changed;
 }
 
-/// The fastest exponential growth of the rates of such of them as grow much in a step, 1/s.
-double StepGuard::growth(const Point<double>& point, const std::vector<std::size_t>& velocities) const {
+/// Those of them that grow much in a step, and their rates too.
+std::vector<StepGuard::Growth> StepGuard::growing(const Point<double>& point,
+                                                  const std::vector<std::size_t>& velocities) const {
   constexpr double kShort = 1e-4;  // of a step
   const std::vector<double> rates = flow_.rates(point.t, point.x);
   std::vector<double> x = point.x;
   for (std::size_t k = 0; k < x.size(); ++k) x[k] += kShort * h_ * rates[k];
   const std::vector<double> later = flow_.rates(point.t + kShort * h_, x);
-  double fastest = 0;
+  std::vector<Growth> list;
   for (const std::size_t k : velocities) {
     const std::size_t entry = flow_.position_count() + k;
-    if (h_ * rates[entry] / point.x[entry] > kPushed)
-      fastest = std::max(fastest, (later[entry] / rates[entry] - 1) / (kShort * h_));
+    const double rate = (later[entry] / rates[entry] - 1) / (kShort * h_);
+    if (h_ * rates[entry] / point.x[entry] > kPushed && rate * h_ > kGrowth) list.push_back({k, rate});
   }
-  return fastest;
+  return list;
 }
 
 /// The real part of the fastest growing mode, 1/s: by differences over a thousandth of what a step changes, be it
 /// micrometres. Entries of x count as if each were free.
 double StepGuard::fastest_mode(const Point<double>& point) const {
-  constexpr double kShare = 1e-3, kLeast = 1e-9;
+  constexpr double kShare = 1e-3, kLeast = 1e-9, kRoundings = 64;
   const std::vector<double> rates = flow_.rates(point.t, point.x);
+  const double least = std::max(kLeast, kRoundings * flow_.table().unit_roundoff);
   const auto n = static_cast<Eigen::Index>(point.x.size());
   Eigen::MatrixXd J(n, n);
   for (Eigen::Index j = 0; j < n; ++j) {
     const auto k = static_cast<std::size_t>(j);
     const double change =
-        std::max(kShare * h_ * std::fabs(rates[k]), kLeast * std::max(1.0, std::fabs(point.x[k])));
+        std::max(kShare * h_ * std::fabs(rates[k]), least * std::max(1.0, std::fabs(point.x[k])));
     std::vector<double> above = point.x, below = point.x;
     above[k] += change;
     below[k] -= change;
@@ -80,33 +88,60 @@ double StepGuard::fastest_mode(const Point<double>& point) const {
   return J.allFinite() ? studies::spectrum(J).values.real().maxCoeff() : 0;
 }
 
-bool StepGuard::leads_elsewhere(const Point<double>& before, const Point<double>& after,
-                                const std::vector<std::size_t>& velocities) const {
-  for (const int parts : kParts) {
-    Point<double> point = before;
-    studies::Memory memory = flow_.fresh_memory(method_);
-    flow_.step(method_, point, h_ / parts, parts, memory);
-    for (const std::size_t velocity : velocities) {
-      const std::size_t k = flow_.position_count() + velocity;
-      if (!(std::fabs(point.x[k] - after.x[k]) <= kMissed * std::fabs(after.x[k] - before.x[k]))) return true;
+/// The step in `parts`; where one of them changes one of these velocities by more than half of the largest that there
+/// was by then, `jumped` is the first of them.
+StepGuard::Path StepGuard::in_parts(const Point<double>& before, int parts,
+                                    const std::vector<Growth>& growing) const {
+  Path path = {before, nullptr};
+  studies::Memory memory = flow_.fresh_memory(method_);
+  std::vector<double> fastest = fastest_;
+  for (long part = 0; part < parts && !path.jumped; ++part) {
+    const std::vector<double> last = path.end.x;
+    flow_.step(method_, path.end, h_ / parts, 1, memory);
+    for (const Growth& growth : growing) {
+      const std::size_t k = flow_.position_count() + growth.velocity;
+      double& most = fastest[growth.velocity];
+      if (part >= kFirst && !(std::fabs(path.end.x[k] - last[k]) <= kMuch * most)) path.jumped = &growth;
+      most = std::max(most, std::fabs(path.end.x[k]));
     }
   }
-  return false;
+  return path;
+}
+
+/// The first of them whose motion even small parts of the step do not follow, or that the step throws off; null: none.
+const StepGuard::Growth* StepGuard::lost(const Point<double>& before, const Point<double>& after,
+                                         const std::vector<Growth>& growing) const {
+  Path path;
+  for (const int parts : kParts) {
+    path = in_parts(before, parts, growing);
+    if (path.jumped) return path.jumped;
+  }
+  for (const Growth& growth : growing) {
+    const std::size_t k = flow_.position_count() + growth.velocity;
+    const double usual = std::max(fastest_[growth.velocity], std::fabs(path.end.x[k]));
+    if (!(std::fabs(after.x[k]) <= kFarOff * usual)) return &growth;
+    if (std::fabs(after.x[k] - path.end.x[k]) <= kMissed * std::fabs(after.x[k] - before.x[k])) continue;
+    const std::vector<Growth> then = this->growing(path.end, {growth.velocity});
+    if (!then.empty() && then.front().rate > std::max(kFaster * growth.rate, kFast / h_)) return &growth;
+  }
+  return nullptr;
 }
 
 std::string StepGuard::problem(const Point<double>& before, const Point<double>& after) {
-  const std::size_t first = flow_.position_count();
-  const std::vector<std::size_t> changed = changed_much(before.x.data() + first, after.x.data() + first);
-  if (++steps_ <= kFirst || changed.empty()) return "";
-  const double grows = growth(before, changed);
-  if (!(grows * h_ > kGrowth) || !leads_elsewhere(before, after, changed) ||
-      !(fastest_mode(before) * h_ > kGrowth))
-    return "";
-  return fmt::format(
-      "at t = {:g} s a step of {:g} s does not follow the motion: what accelerates '{}' grows e-fold in "
-      "{:.2g} s, and parts of the step lead elsewhere; take shorter ones: if they end there, too, so does "
-      "the motion",
-      before.t, h_, flow_.table().velocity_names[changed.front()], 1 / grows);
+  const double* z = after.x.data() + flow_.position_count();
+  const std::vector<std::size_t> changed = changed_much(before.x.data() + flow_.position_count(), z);
+  std::string text;
+  if (++steps_ > kFirst && !changed.empty()) {
+    const std::vector<Growth> list = growing(before, changed);
+    const Growth* growth = list.empty() ? nullptr : lost(before, after, list);
+    if (growth && fastest_mode(before) * h_ > kGrowth)
+      text = fmt::format(
+          "at t = {:g} s a step of {:g} s does not follow the motion: what accelerates '{}' grows e-fold in "
+          "{:.2g} s; take shorter ones: if they end there, too, so does the motion",
+          before.t, h_, flow_.table().velocity_names[growth->velocity], 1 / growth->rate);
+  }
+  remember(z);
+  return text;
 }
 
 }  // namespace jourdain::commands

@@ -11,9 +11,12 @@ namespace jourdain::commands {
 /// A step, but one of the first four, is not believed where
 /// - it changes a velocity by more than half of the largest that there was,
 /// - before it this velocity grows by a quarter or more in a step, and its rate by exp(1/2),
-/// - its parts, 4, 16 or 64 of them, lead elsewhere, by more than a tenth of what it has changed, and
-/// - a mode grows as fast: stiff forces, which implicit methods may leave unresolved, have none.
-/// That is where motions end, which implicit methods step across. Other steps that are too long are not found.
+/// - a mode grows by exp(1/2) in a step: stiff forces, which implicit methods may leave unresolved, have none, and
+/// - a part of it, of 64, 250 or 1000 (none of the first four), changes it by more than half of the largest again; or
+///   the parts lead elsewhere, and from there it grows three times as fast, by exp(2.5) in a step; or the step makes it
+///   ten times as large as all that there was and as the parts do.
+/// Otherwise the motion goes on, as where something slips. That is where motions end, which implicit methods step
+/// across. Other steps that are too long are not found.
 class StepGuard {
  public:
   /// `h` is the step, s; what is referred to must live as long.
@@ -23,11 +26,24 @@ class StepGuard {
   std::string problem(const studies::Point<double>& before, const studies::Point<double>& after);
 
  private:
-  std::vector<std::size_t> changed_much(const double* before, const double* after);
-  double growth(const studies::Point<double>& point, const std::vector<std::size_t>& velocities) const;
+  /// A velocity, and how fast its rate grows exponentially, 1/s.
+  struct Growth {
+    std::size_t velocity = 0;
+    double rate = 0;
+  };
+  struct Path {
+    studies::Point<double> end;
+    const Growth* jumped = nullptr;
+  };
+  /// Entries of z.
+  std::vector<std::size_t> changed_much(const double* before, const double* after) const;
+  void remember(const double* z);
+  std::vector<Growth> growing(const studies::Point<double>& point,
+                              const std::vector<std::size_t>& velocities) const;
   double fastest_mode(const studies::Point<double>& point) const;
-  bool leads_elsewhere(const studies::Point<double>& before, const studies::Point<double>& after,
-                       const std::vector<std::size_t>& velocities) const;
+  Path in_parts(const studies::Point<double>& before, int parts, const std::vector<Growth>& growing) const;
+  const Growth* lost(const studies::Point<double>& before, const studies::Point<double>& after,
+                     const std::vector<Growth>& growing) const;
 
   const studies::Flow<double>& flow_;
   const jourdain_method& method_;

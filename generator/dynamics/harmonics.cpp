@@ -166,7 +166,9 @@ std::string function_text(const Ex& call, bool latex) {
 std::string factor_text(const Ex& e, bool latex) {
   if (is_a<GiNaC::power>(e)) {
     const double exponent = support::nearest_double(cln::realpart(ex_to<GiNaC::numeric>(e.op(1)).to_cl_N()));
-    return fmt::format(fmt::runtime(latex ? "{}^{{{}}}" : "{}^{}"), factor_text(e.op(0), latex), exponent);
+    const std::string base = factor_text(e.op(0), latex);
+    return fmt::format(fmt::runtime(latex ? "{}^{{{}}}" : "{}^{}"),
+                       is_a<GiNaC::power>(e.op(0)) ? "(" + base + ")" : base, exponent);
   }
   if (is_a<GiNaC::symbol>(e)) {
     const std::string name = ex_to<GiNaC::symbol>(e).get_name();
