@@ -248,7 +248,7 @@ std::string to_text(const Harmonics& harmonics, bool latex) {
 }
 
 std::string latex_number(double value) {
-  const std::string text = fmt::format("{}", value);
+  std::string text = fmt::format("{}", value);
   const std::size_t e = text.find('e');
   if (e == std::string::npos) return text;
   const std::string digits = text.substr(0, e),
