@@ -63,8 +63,8 @@ class EquationPrinter {
 
   std::string print() const {
     std::string text;
-    if (!latex_ && has(Op::kWhereNegative)) text += meaning(kWhereNegative, latex_);
-    if (!latex_ && has(Op::kWhereNotNegative)) text += meaning(kWhereNotNegative, latex_);
+    if (!latex_ && has(Op::kWhereNegative)) text += meaning(kWhereNegative, false);
+    if (!latex_ && has(Op::kWhereNotNegative)) text += meaning(kWhereNotNegative, false);
     if (!arrays_.empty())
       text += meaning("entry(x, array): that of number floor(x), the first is 0; beyond an end that", latex_);
     for (const std::uint32_t array : arrays_) {
@@ -229,9 +229,9 @@ std::string expanded(const dynamics::Equations& equations, bool latex) {
   for (std::size_t i = 0; i < n; ++i)
     line(latex ? fmt::format("\\bar q_{{{}}}", i) : fmt::format("q_bar[{}]", i), equations.q_bar[i]);
   if (!latex && text.find("where_not_negative(") != std::string::npos)
-    text.insert(0, meaning(kWhereNotNegative, latex));
+    text.insert(0, meaning(kWhereNotNegative, false));
   if (!latex && text.find("where_negative(") != std::string::npos)
-    text.insert(0, meaning(kWhereNegative, latex));
+    text.insert(0, meaning(kWhereNegative, false));
   return text;
 }
 

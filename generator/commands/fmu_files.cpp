@@ -64,8 +64,8 @@ std::map<std::string, std::string> holes(const FmuScene& scene, const std::strin
           {"NP", count(facts.parameters.size())},
           {"NS", count(scene.positions.size())},
           {"NQ", count(quaternions.size())},
-          {"GIVEN_Y", count(facts.given_positions.size())},
-          {"GIVEN_Z", count(facts.given_velocities.size())},
+          {"KEPT_Y", count(facts.kept_positions.size())},
+          {"KEPT_Z", count(facts.kept_velocities.size())},
           {"NV", count(scene.numbers.size())},
           {"REDUCED", facts.is_reduced ? "1" : "0"},
           {"DERIVATIVES", scene.has_derivatives ? "1" : "0"},
@@ -77,8 +77,8 @@ std::map<std::string, std::string> holes(const FmuScene& scene, const std::strin
           {"STATE_VELOCITIES", entries(velocities)},
           {"NOMINALS", nominals(scene)},
           {"QUATERNIONS", entries(quaternions)},
-          {"GIVEN_POSITIONS", entries(facts.given_positions)},
-          {"GIVEN_VELOCITIES", entries(facts.given_velocities)}};
+          {"KEPT_POSITIONS", entries(facts.kept_positions)},
+          {"KEPT_VELOCITIES", entries(facts.kept_velocities)}};
 }
 
 /// Closes what zip_close would write elsewhere.

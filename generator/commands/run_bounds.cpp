@@ -134,8 +134,7 @@ std::string growth_limit_text(const Flow<double>& flow, const Point<double>& poi
   if (!(growth * h > kFast) || !(growth > kAsFast * modes.cwiseAbs().maxCoeff())) return "";
   return fmt::format(
       "is too long: at t = {:g} s a mode grows at {:.3g}/s; take a shorter one: if it ends there, too, so "
-      "does "
-      "the motion",
+      "does the motion",
       point.t, growth);
 }
 
@@ -159,13 +158,14 @@ bool is_singular(const Flow<double>& flow, const Point<double>& point, double h)
 
 std::string breach_text(const Flow<double>& flow, const model::Tangent& tangent, const Breach& breach,
                         const std::string& method, double h) {
-  std::string why = breach.is_explained && !breach.is_of_step
-                        ? std::string()
-                        : step_limit_text(flow, flow.start(), tangent, method, h);
-  if (breach.is_of_step && !why.empty())
-    return fmt::format("error: a step of {:g} s is too long: {}; take a shorter one or --method rodas4\n", h,
-                       why);
-  if (breach.is_explained) return fmt::format("error: {}\n", breach.what);
+  if (breach.of == Breach::Of::kLoops) return fmt::format("error: {}\n", breach.what);
+  std::string why = step_limit_text(flow, flow.start(), tangent, method, h);
+  if (breach.of == Breach::Of::kStep)
+    return why.empty() ? fmt::format("error: {}\n", breach.what)
+                       : fmt::format(
+                             "error: a step of {:g} s is too long: {}; take a shorter one or --method "
+                             "rodas4\n",
+                             h, why);
   if (is_singular(flow, breach.last, h))
     return fmt::format(
         "error: the equations of motion have no finite rates from t = {:g} s on: the mass matrix is singular "

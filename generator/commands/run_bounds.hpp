@@ -40,9 +40,8 @@ class RunBounds {
 /// Where a run left its bounds.
 struct Breach {
   studies::Point<double> last, end;  ///< one step apart; within and out of bounds
-  std::string what;                  ///< as RunBounds::breach says, LoopGuard::problem or StepGuard::problem
-  bool is_explained = false;         ///< one of the latter two
-  bool is_of_step = false;           ///< the last
+  std::string what;                  ///< as RunBounds::breach, LoopGuard::problem or StepGuard::problem says
+  enum class Of { kBounds, kLoops, kStep } of = Of::kBounds;  ///< which of these
 };
 
 /// The error message: where and how, and why. Either rates are not finite at `last` or half a step or one from

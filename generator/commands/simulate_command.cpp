@@ -130,9 +130,10 @@ class Simulation {
   /// What a step from `before` led to.
   void watch(const Point<double>& before, const Point<double>& point) {
     if (const std::string what = trouble(point); !what.empty())
-      state_.breach = {before, point, what, bounds_.breach(point).empty()};
+      state_.breach = {before, point, what,
+                       bounds_.breach(point).empty() ? Breach::Of::kLoops : Breach::Of::kBounds};
     else if (const std::string grown = step_guard_.problem(before, point); !grown.empty())
-      state_.breach = {before, point, grown, true, true};
+      state_.breach = {before, point, grown, Breach::Of::kStep};
     if (conserves_energy_) {
       state_.largest_drift =
           std::max(state_.largest_drift, std::fabs(flow_.energy(point) - state_.first_energy));
@@ -284,11 +285,12 @@ int run(const SimulateArguments& arguments) {
   const std::optional<LoopGuard> guard =
       model->loaded.plan() ? std::optional<LoopGuard>(std::in_place, flow, model->loaded, arguments.step)
                            : std::nullopt;
-  const model::Tangent tangent = programs::displaced_tangent(compiled.facts);
   const Trajectory result =
       Simulation(flow, arguments, conserves, signals, *selection, guard ? &*guard : nullptr).run(*steps, csv);
   if (result.breach) {
-    fmt::print(stderr, "{}", breach_text(flow, tangent, *result.breach, arguments.method, arguments.step));
+    fmt::print(stderr, "{}",
+               breach_text(flow, programs::displaced_tangent(compiled.facts), *result.breach,
+                           arguments.method, arguments.step));
     return kModelWrong;
   }
   const std::string picture =

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "studies/sensitivity.hpp"
 #include "studies/spectra.hpp"
 
 namespace jourdain::commands {
@@ -70,21 +71,11 @@ double StepGuard::fastest_mode(const Point<double>& point) const {
   constexpr double kShare = 1e-3, kLeast = 1e-9, kRoundings = 64;
   const std::vector<double> rates = flow_.rates(point.t, point.x);
   const double least = std::max(kLeast, kRoundings * flow_.table().unit_roundoff);
-  const auto n = static_cast<Eigen::Index>(point.x.size());
-  Eigen::MatrixXd J(n, n);
-  for (Eigen::Index j = 0; j < n; ++j) {
-    const auto k = static_cast<std::size_t>(j);
-    const double change =
-        std::max(kShare * h_ * std::fabs(rates[k]), least * std::max(1.0, std::fabs(point.x[k])));
-    std::vector<double> above = point.x, below = point.x;
-    above[k] += change;
-    below[k] -= change;
-    const std::vector<double> high = flow_.rates(point.t, above), low = flow_.rates(point.t, below);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const auto r = static_cast<std::size_t>(i);
-      J(i, j) = (high[r] - low[r]) / (above[k] - below[k]);
-    }
-  }
+  std::vector<double> changes;
+  for (std::size_t k = 0; k < point.x.size(); ++k)
+    changes.push_back(
+        std::max(kShare * h_ * std::fabs(rates[k]), least * std::max(1.0, std::fabs(point.x[k]))));
+  const Eigen::MatrixXd J = studies::jacobian(flow_, point, changes);
   return J.allFinite() ? studies::spectrum(J).values.real().maxCoeff() : 0;
 }
 

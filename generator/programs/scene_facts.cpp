@@ -79,10 +79,10 @@ void set_loop_facts(const model::Mechanism& mechanism, const loops::LoopPlan& pl
   facts.is_reduced = plan.is_reduced();
   facts.closings = plan.closings();
   for (std::size_t i = 0; i < plan.kept_y.size(); ++i)
-    if (plan.kept_y[i]) facts.given_positions.push_back(i);
+    if (plan.kept_y[i]) facts.kept_positions.push_back(i);
   if (!plan.is_reduced()) {
     for (std::size_t j = 0; j < plan.kept_z.size(); ++j)
-      if (plan.kept_z[j]) facts.given_velocities.push_back(j);
+      if (plan.kept_z[j]) facts.kept_velocities.push_back(j);
     return;
   }
   facts.dependents = dependent_positions(plan, facts.tangent);
@@ -90,7 +90,7 @@ void set_loop_facts(const model::Mechanism& mechanism, const loops::LoopPlan& pl
   facts.tangent = independent_tangent(plan, facts.tangent);
   std::vector<std::string> independent;
   for (const std::size_t k : plan.independent) {
-    if (plan.kept_z[k]) facts.given_velocities.push_back(independent.size());
+    if (plan.kept_z[k]) facts.kept_velocities.push_back(independent.size());
     independent.push_back(facts.velocities[k]);
   }
   facts.velocities = independent;

@@ -52,7 +52,7 @@ struct SceneFacts {
   bool is_reduced = false;               ///< some coordinates follow from others
   std::vector<std::size_t> dependents;   ///< entries of y that close_loops sets
   /// Entries of y and z that start as the description says, where loops might move them.
-  std::vector<std::size_t> given_positions, given_velocities;
+  std::vector<std::size_t> kept_positions, kept_velocities;
   std::vector<std::size_t> carried;  ///< entries of y whose velocities follow, but not they themselves
   int closings =
       1;  ///< calls of close_loops where dependent positions were not integrated along: more for Newton's method

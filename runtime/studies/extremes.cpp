@@ -54,7 +54,6 @@ class Comparison {
     const std::vector<LongReal> rates = long_flow_.rates(LongReal(t), exact_x),
                                 exact(rates.begin() + first, rates.end());
     const double unit = flow_.table().unit_roundoff;
-    constexpr double kNothing = 1e-30;
     if (norm(exact) > 0) take(point.forward, norm(difference(zdot, exact)) / norm(exact) / unit);
     if (keeps_all_coordinates(flow_, tangent_)) {
       point.backward = NAN;
@@ -64,6 +63,7 @@ class Comparison {
     const VectorXd row_errors = as_vector(difference(residual.at(zdot), residual.at(exact))).cwiseAbs();
     const VectorXd scale = row_scales(residual.mass_matrix(), as_vector(exact), t, x);
     // Rows that are zero by symmetry hold what rounding leaves of it in all digits: nothing to compare with.
+    constexpr double kNothing = 1e-30;  // of the largest row
     const double least = scale.size() > 0 ? kNothing * scale.maxCoeff() : 0;
     for (Eigen::Index i = 0; i < scale.size(); ++i)
       if (scale[i] > least) take(point.backward, row_errors[i] / scale[i] / unit);

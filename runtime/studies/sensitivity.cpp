@@ -89,10 +89,16 @@ MatrixXd transition(const Flow<double>& flow, const Point<double>& start, const 
 }  // namespace
 
 MatrixXd jacobian(const Flow<double>& flow, const Point<double>& point, double separation) {
+  std::vector<double> changes;
+  for (const double entry : point.x) changes.push_back(separation * (1 + std::fabs(entry)));
+  return jacobian(flow, point, changes);
+}
+
+MatrixXd jacobian(const Flow<double>& flow, const Point<double>& point, const std::vector<double>& changes) {
   const auto n = static_cast<Eigen::Index>(flow.size());
   MatrixXd result(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    const double entry = point.x[std::size_t(i)], delta = separation * (1 + std::fabs(entry));
+    const double entry = point.x[std::size_t(i)], delta = changes[std::size_t(i)];
     std::vector<double> above = point.x, below = point.x;
     above[std::size_t(i)] = entry + delta;
     below[std::size_t(i)] = entry - delta;

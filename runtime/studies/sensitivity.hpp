@@ -35,5 +35,8 @@ std::vector<Eigen::MatrixXd> transition_matrices(const Flow<double>& flow,
 
 /// ∂f/∂x, n × n, by central differences, entries moved by `separation` (1 + |x|).
 Eigen::MatrixXd jacobian(const Flow<double>& flow, const Point<double>& point, double separation);
+/// The same, entry by entry moved by `changes`.
+Eigen::MatrixXd jacobian(const Flow<double>& flow, const Point<double>& point,
+                         const std::vector<double>& changes);
 
 }  // namespace jourdain::studies
