@@ -178,6 +178,7 @@ void add_ensemble(CLI::App& app, int& status) {
       "ensemble",
       "step many drawn states, print statistics: jourdain ensemble arm.toml --spread mass=normal(5%)");
   arguments->run.add_to(*command);
+  command->get_option("--inputs")->group("");  // of single runs
   command->add_option("--states", arguments->states, "how many")
       ->check(CLI::Range(std::uint64_t{1}, kMostStates))
       ->capture_default_str();

@@ -51,7 +51,7 @@ std::string readback_text(const readback::Record& record) {
       fmt::format("  read back from the files: {} functions, the same as validated in all {} nodes",
                   record.functions, record.nodes);
   if (record.steps > 0)
-    text += fmt::format("; {} step{} as defined, at {} random point{} in 60 digits", record.steps,
+    text += fmt::format("; {} step{} as defined, at {} random point{} in 70 digits", record.steps,
                         record.steps == 1 ? "" : "s", record.points, record.points == 1 ? "" : "s");
   return text + "\n";
 }

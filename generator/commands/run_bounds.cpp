@@ -160,13 +160,14 @@ std::string breach_text(const Flow<double>& flow, const model::Tangent& tangent,
                         const std::string& method, double h) {
   if (breach.of == Breach::Of::kLoops) return fmt::format("error: {}\n", breach.what);
   std::string why = step_limit_text(flow, flow.start(), tangent, method, h);
-  if (breach.of == Breach::Of::kStep)
+  if (breach.of == Breach::Of::kGrowth)
     return why.empty() ? fmt::format("error: {}\n", breach.what)
                        : fmt::format(
                              "error: a step of {:g} s is too long: {}; take a shorter one or --method "
                              "rodas4\n",
                              h, why);
-  if (is_singular(flow, breach.last, h))
+  const bool is_thrown = breach.of == Breach::Of::kStep;
+  if (!is_thrown && is_singular(flow, breach.last, h))
     return fmt::format(
         "error: the equations of motion have no finite rates from t = {:g} s on: the mass matrix is singular "
         "there, or "
@@ -176,13 +177,15 @@ std::string breach_text(const Flow<double>& flow, const model::Tangent& tangent,
   if (why.empty()) why = step_limit_text(flow, breach.last, tangent, method, h);
   const std::string verdict =
       !growth.empty() ? growth
-      : why.empty()
-          ? "may be too long"
-          : fmt::format(
-                "is too long: {}; take a shorter one or --method rodas4{}", why,
-                flow.table().constraint_count == 0 ? "" : "; or the loops cannot be closed from there on");
-  return fmt::format("error: the run leaves all bounds at t = {:g} s: {}\n  a step of {:g} s {}\n",
-                     breach.end.t, breach.what, h, verdict);
+      : why.empty()   ? std::string(is_thrown ? "is too long; take a shorter one" : "may be too long")
+                      : fmt::format("is too long: {}; take a shorter one or --method rodas4{}", why,
+                                  is_thrown || flow.table().constraint_count == 0
+                                        ? ""
+                                        : "; or the loops cannot be closed from there on");
+  const std::string where =
+      is_thrown ? breach.what
+                : fmt::format("the run leaves all bounds at t = {:g} s: {}", breach.end.t, breach.what);
+  return fmt::format("error: {}\n  a step of {:g} s {}\n", where, h, verdict);
 }
 
 }  // namespace jourdain::commands

@@ -40,8 +40,9 @@ class RunBounds {
 /// Where a run left its bounds.
 struct Breach {
   studies::Point<double> last, end;  ///< one step apart; within and out of bounds
-  std::string what;                  ///< as RunBounds::breach, LoopGuard::problem or StepGuard::problem says
-  enum class Of { kBounds, kLoops, kStep } of = Of::kBounds;  ///< which of these
+  std::string what;                  ///< as RunBounds::breach, LoopGuard::problem or StepGuard says
+  /// Bounds that the run leaves, loops that open, a motion that grows, or one that the step throws off.
+  enum class Of { kBounds, kLoops, kGrowth, kStep } of = Of::kBounds;
 };
 
 /// The error message: where and how, and why. Either rates are not finite at `last` or half a step or one from

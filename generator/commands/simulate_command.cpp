@@ -132,8 +132,8 @@ class Simulation {
     if (const std::string what = trouble(point); !what.empty())
       state_.breach = {before, point, what,
                        bounds_.breach(point).empty() ? Breach::Of::kLoops : Breach::Of::kBounds};
-    else if (const std::string grown = step_guard_.problem(before, point); !grown.empty())
-      state_.breach = {before, point, grown, Breach::Of::kStep};
+    else if (const StepGuard::Problem found = step_guard_.problem(before, point); !found.what.empty())
+      state_.breach = {before, point, found.what, found.is_thrown ? Breach::Of::kStep : Breach::Of::kGrowth};
     if (conserves_energy_) {
       state_.largest_drift =
           std::max(state_.largest_drift, std::fabs(flow_.energy(point) - state_.first_energy));

@@ -19,13 +19,14 @@ constexpr double kMuch = 0.5;     // of the largest velocity that there was
 constexpr double kPushed = 0.25;  // of a velocity, by a step at the acceleration before
 constexpr double kGrowth = 0.5;   // in a step, as an exponent
 constexpr double kFarOff = 10;    // times what there was
-constexpr int kParts[] = {64, 250, 1000};
+constexpr int kParts[] = {64, 250, 1000}, kFewParts[] = {64, 250};
 constexpr long kFirst = 4;       // steps or parts, which change all there is where a motion starts from rest
 constexpr double kMissed = 0.1;  // of a change
+constexpr double kSeen = 1e-3;   // of the largest velocity
 /// Growth itself grows so many times in a step, and is so fast after it, where a motion ends within the step or soon
 /// after: as 1/(the time that is left).
 constexpr double kFaster = 3, kFast = 2.5;
-/// Velocities below this share of the largest one are rounding.
+/// Velocities below this share of the largest one are rounding, as are those that move things by this share in a step.
 constexpr double kRounding = 1e-9;
 
 }  // namespace
@@ -83,12 +84,16 @@ double StepGuard::fastest_mode(const Point<double>& point) const {
 /// was by then, `jumped` is the first of them.
 StepGuard::Path StepGuard::in_parts(const Point<double>& before, int parts,
                                     const std::vector<Growth>& growing) const {
-  Path path = {before, nullptr};
+  Path path = {before, std::vector<double>(fastest_.size()), nullptr};
   studies::Memory memory = flow_.fresh_memory(method_);
   std::vector<double> fastest = fastest_;
   for (long part = 0; part < parts && !path.jumped; ++part) {
     const std::vector<double> last = path.end.x;
     flow_.step(method_, path.end, h_ / parts, 1, memory);
+    for (std::size_t k = 0; k < fastest_.size(); ++k) {
+      const std::size_t entry = flow_.position_count() + k;
+      path.changes[k] = std::max(path.changes[k], std::fabs(path.end.x[entry] - before.x[entry]));
+    }
     for (const Growth& growth : growing) {
       const std::size_t k = flow_.position_count() + growth.velocity;
       double& most = fastest[growth.velocity];
@@ -118,21 +123,54 @@ const StepGuard::Growth* StepGuard::lost(const Point<double>& before, const Poin
   return nullptr;
 }
 
-std::string StepGuard::problem(const Point<double>& before, const Point<double>& after) {
-  const double* z = after.x.data() + flow_.position_count();
-  const std::vector<std::size_t> changed = changed_much(before.x.data() + flow_.position_count(), z);
-  std::string text;
-  if (++steps_ > kFirst && !changed.empty()) {
-    const std::vector<Growth> list = growing(before, changed);
-    const Growth* growth = list.empty() ? nullptr : lost(before, after, list);
-    if (growth && fastest_mode(before) * h_ > kGrowth)
-      text = fmt::format(
-          "at t = {:g} s a step of {:g} s does not follow the motion: what accelerates '{}' grows e-fold in "
-          "{:.2g} s; take shorter ones: if they end there, too, so does the motion",
-          before.t, h_, flow_.table().velocity_names[growth->velocity], 1 / growth->rate);
+/// What the step throws off; empty: nothing.
+std::string StepGuard::thrown_off(const Point<double>& before, const Point<double>& after) const {
+  constexpr double kRoundings = 64;
+  const std::size_t first = flow_.position_count();
+  const auto change = [&](std::size_t k) { return std::fabs(after.x[first + k] - before.x[first + k]); };
+  double largest = 1;
+  for (const double entry : before.x) largest = std::max(largest, std::fabs(entry));
+  double seen = std::max(kRounding, kRoundings * flow_.table().unit_roundoff) * largest / h_;
+  for (std::size_t k = 0; k < fastest_.size(); ++k)
+    seen = std::max({seen, kSeen * fastest_[k], kSeen * std::fabs(after.x[first + k])});
+  std::vector<std::size_t> thrown;
+  for (std::size_t k = 0; k < fastest_.size(); ++k)
+    if (change(k) > std::max(kFarOff * fastest_[k], seen)) thrown.push_back(k);
+  double followed = 0;
+  for (const int parts : kFewParts) {
+    if (thrown.empty()) return "";
+    const Path path = in_parts(before, parts, {});
+    const auto is_followed = [&](std::size_t k) { return !(path.changes[k] < kMissed * change(k)); };
+    thrown.erase(std::remove_if(thrown.begin(), thrown.end(), is_followed), thrown.end());
+    if (!thrown.empty()) followed = path.changes[thrown.front()];
   }
-  remember(z);
-  return text;
+  if (thrown.empty()) return "";
+  const std::size_t k = thrown.front();
+  return fmt::format(
+      "the step from t = {:g} s on throws '{}' off: it changes by {:.2g} (SI units), in {} shorter ones by "
+      "{:.2g} at most",
+      before.t, flow_.table().velocity_names[k], change(k), kFewParts[1], followed);
+}
+
+/// What grows faster than the step follows; empty: nothing.
+std::string StepGuard::outgrown(const Point<double>& before, const Point<double>& after) const {
+  const std::size_t first = flow_.position_count();
+  const std::vector<std::size_t> changed = changed_much(before.x.data() + first, after.x.data() + first);
+  if (changed.empty()) return "";
+  const std::vector<Growth> list = growing(before, changed);
+  const Growth* growth = list.empty() ? nullptr : lost(before, after, list);
+  if (!growth || fastest_mode(before) * h_ <= kGrowth) return "";
+  return fmt::format(
+      "at t = {:g} s a step of {:g} s does not follow the motion: what accelerates '{}' grows e-fold in "
+      "{:.2g} s; take shorter ones: if they end there, too, so does the motion",
+      before.t, h_, flow_.table().velocity_names[growth->velocity], 1 / growth->rate);
+}
+
+StepGuard::Problem StepGuard::problem(const Point<double>& before, const Point<double>& after) {
+  Problem found = {thrown_off(before, after), true};
+  if (found.what.empty()) found = {++steps_ > kFirst ? outgrown(before, after) : "", false};
+  remember(after.x.data() + flow_.position_count());
+  return found;
 }
 
 }  // namespace jourdain::commands

@@ -1,4 +1,5 @@
-// Whether a step follows a motion that grows, as where a force pulls bodies together without bound.
+// Whether a step follows the motion: one that grows, as where a force pulls bodies together without bound, or one that
+// the step throws off.
 #pragma once
 
 #include <string>
@@ -8,7 +9,10 @@
 
 namespace jourdain::commands {
 
-/// A step, but one of the first four, is not believed where
+/// A step is not believed where it changes a velocity by ten times as much as the largest that there was, by a
+/// thousandth or more of all and by more than rounding, and parts of it, 64 and 250, by less than a tenth of that at
+/// any time: it throws it off.
+/// A step, but one of the first four, is not believed either where
 /// - it changes a velocity by more than half of the largest that there was,
 /// - before it this velocity grows by a quarter or more in a step, and its rate by exp(1/2),
 /// - a mode grows by exp(1/2) in a step: stiff forces, which implicit methods may leave unresolved, have none, and
@@ -22,8 +26,12 @@ class StepGuard {
   /// `h` is the step, s; what is referred to must live as long.
   StepGuard(const studies::Flow<double>& flow, const jourdain_method& method, double h);
 
-  /// Of the step from `before` to `after`, one after the other from the start: a sentence; empty: nothing is wrong.
-  std::string problem(const studies::Point<double>& before, const studies::Point<double>& after);
+  /// What is wrong with the step from `before` to `after`, one after the other from the start.
+  struct Problem {
+    std::string what;        ///< a sentence; empty: nothing is wrong
+    bool is_thrown = false;  ///< by the step; otherwise it grows
+  };
+  Problem problem(const studies::Point<double>& before, const studies::Point<double>& after);
 
  private:
   /// A velocity, and how fast its rate grows exponentially, 1/s.
@@ -33,11 +41,14 @@ class StepGuard {
   };
   struct Path {
     studies::Point<double> end;
+    std::vector<double> changes;  ///< of each velocity, the largest on the way
     const Growth* jumped = nullptr;
   };
   /// Entries of z.
   std::vector<std::size_t> changed_much(const double* before, const double* after) const;
   void remember(const double* z);
+  std::string thrown_off(const studies::Point<double>& before, const studies::Point<double>& after) const;
+  std::string outgrown(const studies::Point<double>& before, const studies::Point<double>& after) const;
   std::vector<Growth> growing(const studies::Point<double>& point,
                               const std::vector<std::size_t>& velocities) const;
   double fastest_mode(const studies::Point<double>& point) const;

@@ -44,10 +44,11 @@ std::vector<std::vector<std::size_t>> couplings(const programs::SceneFacts& scen
 }
 
 std::vector<Table> coupling_tables(const programs::SceneFacts& scene, const ir::Program& derivatives) {
-  Table first{"first_coupled",
-              "Velocities before k that W couples with k: coupled[first_coupled[k]] to "
-              "coupled[first_coupled[k + 1] - 1].",
-              {0}},
+  Table first{
+      "first_coupled",
+      "Where in `coupled` the velocities before k that W couples with k begin; they end where those of "
+      "k + 1 begin.",
+      {0}},
       entries{"coupled", "", {}};
   for (const std::vector<std::size_t>& list : couplings(scene, derivatives)) {
     entries.entries.insert(entries.entries.end(), list.begin(), list.end());

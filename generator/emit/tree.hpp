@@ -3,6 +3,7 @@
 // that is spelt.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -211,7 +212,10 @@ struct Struct {
   bool has_depth = false;  ///< a template of `depth`, which functions name, whether members have it or not
 };
 
-/// Integers that are known when the model is emitted.
+/// The names of all tables.
+inline constexpr std::array<const char*, 2> kTables{"coupled", "first_coupled"};
+
+/// Integers that are known when the model is emitted. C++ has functions of them, which device code may call.
 struct Table {
   std::string name, comment;
   std::vector<std::size_t> entries;

@@ -162,9 +162,8 @@ class Parser {
     const std::string_view name = text_.substr(begin, position_ - begin);
     for (const Symbol& known : kSymbols)
       if (known.name == name) return {known.factor, known.dimension, std::string(known.si)};
-    std::vector<std::string> names;
-    for (const Symbol& known : kSymbols) names.emplace_back(known.name);
-    const std::string near = support::nearest(name, names);
+    const std::vector<std::string_view> symbols = unit_symbols();
+    const std::string near = support::nearest(name, std::vector<std::string>(symbols.begin(), symbols.end()));
     fail(begin, fmt::format("'{}' is not a unit", support::shown(name)),
          near.empty() ? "such as m, mm, kg, s, rad, deg, rpm, N, Nm, Hz, Pa" : fmt::format("'{}'?", near),
          std::max<std::size_t>(1, name.size()));
@@ -191,6 +190,12 @@ class Parser {
 };
 
 }  // namespace
+
+std::vector<std::string_view> unit_symbols() {
+  std::vector<std::string_view> names;
+  for (const Symbol& symbol : kSymbols) names.push_back(symbol.name);
+  return names;
+}
 
 std::variant<Unit, UnitError> parse_unit(std::string_view text) {
   try {

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 #include <variant>
+#include <vector>
 
 namespace jourdain::model {
 
@@ -29,6 +30,9 @@ struct UnitError {
 /// pair of parentheses may follow a '/': what comes after that would be read one way by some and the other by
 /// others. Empty, "1" and "-" are one.
 std::variant<Unit, UnitError> parse_unit(std::string_view text);
+
+/// All symbols, of one kind after the other.
+std::vector<std::string_view> unit_symbols();
 
 /// A number and the text after it, which is no operator ("120 rpm", "-2.5e3 N/m", "30deg"); nothing where the text is
 /// not that.

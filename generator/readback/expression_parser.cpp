@@ -241,8 +241,15 @@ const Expression* ExpressionParser::postfix() {
   }
 }
 
-/// `detail::number<Real>(x)` of text for packs is Real(x).
+/// `detail::number<Real>(x)` of text for packs is Real(x), `table(i)` an entry.
 const Expression* ExpressionParser::cpp_call(Expression& call) {
+  if (call.a->kind == ExpressionKind::kName && known_.tables.contains(call.a->name) &&
+      call.arguments.size() == 1) {
+    call.kind = ExpressionKind::kSubscript;
+    call.b = call.arguments.front();
+    call.arguments.clear();
+    return &call;
+  }
   const TypeName* scope = call.a->kind == ExpressionKind::kName ? call.a->type : nullptr;
   const bool converts =
       known_.packs && scope && scope->path == std::vector<Symbol>{unit_.symbols["detail"]} &&

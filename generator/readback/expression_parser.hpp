@@ -33,6 +33,7 @@ class ExpressionParser {
   struct Known {
     std::set<Symbol> types;  ///< in scope without a namespace in front: parameters of templates, aliases
     std::set<Symbol> struct_templates, function_templates;
+    std::set<Symbol> tables;                        ///< functions of the entries of constants
     std::set<std::pair<Symbol, Symbol>> qualified;  ///< struct templates by namespace
     const CText* c = nullptr;                       ///< null: the text is C++
     bool packs = false;                             ///< C++ whose conversions to Real packs may customize
@@ -62,6 +63,7 @@ class ExpressionParser {
   bool starts_type() const;
   Declarator declarator(bool may_be_unnamed);
   void bounds(Declarator& declarator);
+  void expect_text(const std::string& text);
   /// Takes a function that takes entries of an array of constants, if one begins here.
   bool table_function();
 
@@ -82,7 +84,6 @@ class ExpressionParser {
   bool is_known_type(Symbol name) const;
   // in table_functions.cpp
   bool begins_table() const;
-  void expect_text(const std::string& text);
   std::vector<double> listed_numbers();
   // of C, in c_expression_parser.cpp
   TypeName c_type();

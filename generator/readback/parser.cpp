@@ -149,8 +149,10 @@ class FileParser : public StatementParser {
     if (is_function && !accept_word(kInlinedMacro)) function.has_stages = accept_word(kStagesMacro);
     if (!is_function) {
       expect_word("constexpr");
-      return constant(is_inline);
+      constant(is_inline);
+      return;
     }
+    if (is_inline && is_word("int")) return table();
     function.is_inline = is_inline;
     if (is_constructor_outside()) {
       constructor_outside(function);
@@ -207,7 +209,7 @@ class FileParser : public StatementParser {
     function.is_noexcept = accept_word("noexcept");
   }
 
-  void constant(bool is_inline) {
+  Constant& constant(bool is_inline) {
     Constant& made = unit_.all_constants.emplace_back();
     made.is_inline = is_inline;
     made.scope = scope_;
@@ -216,6 +218,19 @@ class FileParser : public StatementParser {
     initializer(made.declarator);
     expect(";");
     unit_.constants.push_back(&made);
+    return made;
+  }
+
+  /// A function of the entries of a constant.
+  void table() {
+    expect_word("int");
+    const Symbol name = expect_name();
+    expect_text("(int k) noexcept { static constexpr");
+    Constant& made = constant(false);
+    expect_text("return list[k]; }");
+    if (unit_.symbols.text(made.declarator.name) != "list") refuse_here("a list");
+    made.declarator.name = name;
+    known_.tables.insert(name);
   }
 
   void structure(const std::vector<TemplateParameter>& parameters_of_template) {

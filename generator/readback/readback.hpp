@@ -16,7 +16,7 @@ struct Record {
   std::size_t nodes = 0;      ///< distinct operations, leaves and literals of all of them
   std::size_t numbers = 0;    ///< results compared
   std::size_t steps = 0;      ///< steps compared with their methods
-  std::size_t points = 0;     ///< random points of all steps, in 60 digits
+  std::size_t points = 0;     ///< random points of all steps, in 70 digits
 };
 
 struct Readback {

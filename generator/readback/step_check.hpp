@@ -9,7 +9,7 @@ namespace jourdain::readback {
 
 /// Every step is executed at several random points, for held inputs and for sampled ones, with fresh and full
 /// histories, with functions of which nothing is known in place of the model's. State, histories and the
-/// arguments of all calls must agree with the definition in 60 digits: checked by identity testing, not proven.
+/// arguments of all calls must agree with the definition in 70 digits: checked by identity testing, not proven.
 void check_steps(const Unit& unit, const Expected& expected, Findings& findings);
 
 }  // namespace jourdain::readback

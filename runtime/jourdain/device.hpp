@@ -84,8 +84,10 @@ void run_on_device(const Work& work, std::size_t count) {
 
 inline void* allocate_on_device(std::size_t bytes) { return ::operator new(bytes); }
 inline void release_on_device(void* memory) noexcept { ::operator delete(memory); }
-inline void copy_to_device(void* to, const void* from, std::size_t bytes) { memcpy(to, from, bytes); }
-inline void copy_to_host(void* to, const void* from, std::size_t bytes) { memcpy(to, from, bytes); }
+inline void copy_to_device(void* to, const void* from, std::size_t bytes) {
+  if (bytes > 0) memcpy(to, from, bytes);
+}
+inline void copy_to_host(void* to, const void* from, std::size_t bytes) { copy_to_device(to, from, bytes); }
 
 template <class Work>
 void run_on_device(const Work& work, std::size_t count) {

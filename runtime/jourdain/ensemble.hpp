@@ -11,6 +11,10 @@
 // What a state ends in depends neither on the number of threads nor on what lies beside it.
 #pragma once
 
+#if defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__
+#error "jourdain/ensemble.hpp finds numbers that are not finite: no -ffast-math, -Ofast, -ffinite-math-only"
+#endif
+
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
@@ -76,8 +80,8 @@ class Ensemble {
   /// Of state k alone, which stays as it is: what depends on parameters, as loops do, may have to be set anew.
   void set_parameters(std::size_t k, const Parameters& parameters) {
     if (models_.size() < blocks_.size()) {
-      parameters_.assign(blocks_.size(), parameters_[0]);
-      models_.assign(blocks_.size(), models_[0]);
+      parameters_.resize(blocks_.size(), parameters_[0]);
+      models_.resize(blocks_.size(), models_[0]);
     }
     for (std::size_t to : Places(*this, k)) put(parameters_[to / lanes], to, parameters);
     blocks_[k / lanes].has_new_parameters = true;
@@ -95,8 +99,8 @@ class Ensemble {
   /// it takes that, the block's index, for what methods remember from step to step.
   template <class Stepper, class Before>
   void run(const Stepper& stepper, Real h, std::size_t steps, std::size_t threads, const Before& before) {
-    const std::size_t parts =
-        std::max<std::size_t>(1, threads > 0 ? threads : std::thread::hardware_concurrency());
+    const std::size_t most = threads > 0 ? threads : std::thread::hardware_concurrency();
+    const std::size_t parts = std::min(std::max<std::size_t>(1, most), blocks_.size());
     const std::size_t size = (blocks_.size() + parts - 1) / parts;
     const auto run_part = [&](std::size_t begin) {
       for (std::size_t b = begin; b < begin + size && b < blocks_.size(); ++b)

@@ -11,6 +11,10 @@
 #if !defined(__GNUC__)
 #error "jourdain/pack.hpp needs vectors as GCC and Clang have them"
 #endif
+// Clang is told apart for these functions alone.
+#if (defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__)) && !defined(__clang__)
+#error "jourdain/pack.hpp needs sums as they are written: no -ffast-math, -Ofast, -fassociative-math with g++"
+#endif
 
 #include <cmath>
 #include <cstddef>
@@ -18,6 +22,10 @@
 #include <cstring>
 #include <type_traits>
 #include <utility>
+
+#if defined(__AVX__)
+#include <immintrin.h>
+#endif
 
 namespace jourdain {
 
@@ -184,7 +192,8 @@ struct Pack {
     entries = Vector{static_cast<Real>(table[places[k]])...};
   }
   static void arctangents(const Vector& y, const Vector& x, Vector& result) noexcept;
-  static void call_library(const Vector& x, const BitVector& in_range, Vector& s, Vector& c) noexcept;
+  static void keep_in_range(const Vector& x, const Vector& magnitude, Vector& s, Vector& c) noexcept;
+  static void call_library(const Vector& x, Vector& s, Vector& c) noexcept;
 };
 
 namespace detail {
@@ -247,18 +256,51 @@ JOURDAIN_PACK_FUNCTION inline void Pack<Real, lanes>::arctangents(const Vector& 
   result = (V)((I)(eighths * number(is_double ? 0.7853981633974483 : 0.785398) + rest) ^ sign);
 }
 
-/// By the C library where a lane is out of range.
+namespace detail {
+
+/// Whether each lane is a number of at most the limit.
+template <class Real, std::size_t lanes, class V>
+JOURDAIN_PACK_FUNCTION inline bool are_at_most(const V& x, Real limit) noexcept {
+#if defined(__AVX512F__)
+  if constexpr (sizeof(V) == 64 && sizeof(Real) == 8)
+    return _mm512_cmp_pd_mask((__m512d)x, _mm512_set1_pd(limit), _CMP_LE_OQ) == 0xff;
+  else if constexpr (sizeof(V) == 64)
+    return _mm512_cmp_ps_mask((__m512)x, _mm512_set1_ps(limit), _CMP_LE_OQ) == 0xffff;
+#endif
+#if defined(__AVX__)
+  if constexpr (sizeof(V) == 32 && sizeof(Real) == 8)
+    return _mm256_movemask_pd(_mm256_cmp_pd((__m256d)x, _mm256_set1_pd(limit), _CMP_LE_OQ)) == 0xf;
+  else if constexpr (sizeof(V) == 32)
+    return _mm256_movemask_ps(_mm256_cmp_ps((__m256)x, _mm256_set1_ps(limit), _CMP_LE_OQ)) == 0xff;
+#endif
+  const auto within = x <= limit;
+  bool all = true;
+  for (std::size_t i = 0; i < lanes; ++i) all &= within[i] != 0;
+  return all;
+}
+
+}  // namespace detail
+
+/// Of `magnitude`, |x|, up to 2^30 as they are; by the C library where a lane is beyond.
 template <class Real, std::size_t lanes>
-JOURDAIN_PACK_FUNCTION inline void Pack<Real, lanes>::call_library(const Vector& x, const BitVector& in_range,
-                                                                   Vector& s, Vector& c) noexcept {
-  Bits all = ~Bits{0};
-  for (std::size_t i = 0; i < lanes; ++i) all &= in_range[i];
-  if (__builtin_expect(all == 0, 0))
-    for (std::size_t i = 0; i < lanes; ++i)
-      if (in_range[i] == 0) {
-        s[i] = static_cast<Real>(std::sin(static_cast<double>(x[i])));
-        c[i] = static_cast<Real>(std::cos(static_cast<double>(x[i])));
-      }
+JOURDAIN_PACK_FUNCTION inline void Pack<Real, lanes>::keep_in_range(const Vector& x, const Vector& magnitude,
+                                                                    Vector& s, Vector& c) noexcept {
+  if (__builtin_expect(detail::are_at_most<Real, lanes>(magnitude, Real{1073741824}), 1)) return;
+  const Vector angles = x;
+  Vector sines = s, cosines = c;
+  call_library(angles, sines, cosines);
+  s = sines;
+  c = cosines;
+}
+
+template <class Real, std::size_t lanes>
+__attribute__((noinline, cold)) void Pack<Real, lanes>::call_library(const Vector& x, Vector& s,
+                                                                     Vector& c) noexcept {
+  for (std::size_t i = 0; i < lanes; ++i)
+    if (!(std::fabs(x[i]) <= Real{1073741824})) {
+      s[i] = static_cast<Real>(std::sin(static_cast<double>(x[i])));
+      c[i] = static_cast<Real>(std::cos(static_cast<double>(x[i])));
+    }
 }
 
 /// Up to 2^30 as the emitted functions for double do it (see there for its sources); beyond, and for what is no number,
@@ -289,7 +331,7 @@ JOURDAIN_PACK_FUNCTION inline void Pack<Real, lanes>::sines_of_doubles(const Vec
                       y * (2.0875729102264816e-09 + z * -1.1359921420814053e-11));
   detail::turn((I)(h + (h * z * odd + l * w)), (I)(w + (((1.0 - w) - half) + (y * even - h * l))), n, sign, s,
                c);
-  call_library(x, (I)(a <= 1073741824.0), s, c);
+  keep_in_range(x, a, s, c);
 }
 
 /// Up to 2^30 in double, with pi/2 in parts whose products with n are exact but for the last, and with polynomials that
@@ -326,7 +368,7 @@ JOURDAIN_PACK_FUNCTION inline void Pack<Real, lanes>::sines_of_floats(const Vect
     std::memcpy(reinterpret_cast<char*>(&c) + first * sizeof(float), &cosines, sizeof part);
   }
   const Bits magnitude = 0x7fffffff;
-  call_library(x, (BitVector)((Vector)((BitVector)x & magnitude) <= 1073741824.0f), s, c);
+  keep_in_range(x, (Vector)((BitVector)x & magnitude), s, c);
 }
 
 }  // namespace jourdain

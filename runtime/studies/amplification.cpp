@@ -103,19 +103,20 @@ MatrixXd step_matrix(const StabilityFunction& function, const MatrixXd& A, doubl
   return value;
 }
 
+// A factor that is no number, as of modes beyond the range of doubles, is unstable.
 double step_limit(const StabilityFunction& function, Complex mu, Allowance allowed) {
   const double speed = std::abs(mu);
   const auto unstable = [&](double r) {
-    return amplification(function, r / speed * mu) >
-           std::exp(std::min(allowed.growth * r / speed, 600.0)) * (1 + kRounding * std::min(1.0, r));
+    return !(amplification(function, r / speed * mu) <=
+             std::exp(std::min(allowed.growth * r / speed, 600.0)) * (1 + kRounding * std::min(1.0, r)));
   };
   return first_unstable(kShortest, kLongest, kFactor, kPrecision, unstable) / speed;
 }
 
 double step_limit(const StabilityFunction& function, const MatrixXd& A, double fastest, Allowance allowed) {
   const auto unstable = [&](double r) {
-    return spectral_radius(step_matrix(function, A, r / fastest)) >
-           std::exp(std::min(allowed.growth * r / fastest, 600.0)) * (1 + kDefective);
+    return !(spectral_radius(step_matrix(function, A, r / fastest)) <=
+             std::exp(std::min(allowed.growth * r / fastest, 600.0)) * (1 + kDefective));
   };
   constexpr double kFirst = 0.05;  // h‖A‖ below which growth is a matter of accuracy
   if (unstable(kFirst)) return 0;

@@ -4,7 +4,7 @@
 # A static library TARGET of what `jourdain compile` emits for a description, with its folder of headers as a usage
 # requirement. It is made anew when the description changes, a file that it imports, or the command. NAME, of the
 # namespace and the files, is TARGET where it is left out. FRAMES are those of --frame, INTERFACE is --interface (of C),
-# OPTIONS are further ones of `jourdain compile`. What the command prints is kept in NAME.log beside the files.
+# OPTIONS are further ones of `jourdain compile`, which decide on no files. What the command prints is kept in NAME.log beside the files.
 include_guard(GLOBAL)
 
 function(jourdain_add_model target)
@@ -36,6 +36,16 @@ function(jourdain_add_model target)
     message(FATAL_ERROR "${call}: INTERFACE is in C, it needs LANGUAGE c")
   endif()
 
+  foreach(option IN LISTS arg_OPTIONS)
+    if(option MATCHES "^(--language|--real|--interface|--name|--output|--depfile|-o)(=|$)")
+      message(FATAL_ERROR "${call}: OPTIONS has ${CMAKE_MATCH_1}; NAME, LANGUAGE, REAL and INTERFACE say which files "
+                          "there are")
+    endif()
+  endforeach()
+
+  if(arg_MODEL MATCHES ";")
+    message(FATAL_ERROR "${call}: MODEL is '${arg_MODEL}', which has a semicolon")
+  endif()
   get_filename_component(model "${arg_MODEL}" ABSOLUTE)
   if(NOT EXISTS "${model}" OR IS_DIRECTORY "${model}")
     message(FATAL_ERROR "${call}: there is no file ${model}")
@@ -85,7 +95,7 @@ function(jourdain_add_model target)
   get_target_property(command jourdain::jourdain IMPORTED_LOCATION)
   add_custom_command(OUTPUT ${files}
     COMMAND ${command} compile ${model} -o ${folder} ${options} --depfile ${folder}/${name}.d > ${folder}/${name}.log
-    COMMAND ${CMAKE_COMMAND} -E touch ${files}
+    COMMAND ${CMAKE_COMMAND} -E touch_nocreate ${files}
     DEPENDS ${model} ${command} DEPFILE ${folder}/${name}.d
     COMMENT "Compiling ${arg_MODEL}"
     VERBATIM)
@@ -95,7 +105,8 @@ function(jourdain_add_model target)
   target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${folder}>)
   if(arg_LANGUAGE STREQUAL "c")
     target_compile_features(${target} PUBLIC c_std_99)
-    target_link_libraries(${target} PUBLIC m)
+    target_link_libraries(${target} PUBLIC -lm)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD OFF)  # files have static functions of the same names
   else()
     target_compile_features(${target} PUBLIC cxx_std_17)
   endif()

@@ -127,6 +127,36 @@ TEST(BlowUp, IsNotSeenWhereSomethingSlips) {
   EXPECT_EQ(flipped.status, 0) << flipped.output;
 }
 
+/// Bristles that a step stretches too far hurl the block away, which then flies on as nothing is wrong.
+TEST(ThrownOff, IsAnError) {
+  for (const char* step : {"0.01", "0.02"}) {
+    const support::ProcessResult result = simulate_model("block_on_slope", "linearly_implicit_euler", step);
+    EXPECT_EQ(result.status, 1) << step;
+    EXPECT_NE(result.output.find("throws 'root_vx' off"), std::string::npos) << step << result.output;
+    EXPECT_NE(result.output.find("is too long"), std::string::npos) << step << result.output;
+  }
+  EXPECT_EQ(simulate_model("block_on_slope", "linearly_implicit_euler", "0.001").status, 0);
+}
+
+/// A spring that is let go far from rest relaxes within the first step, at the velocity that this takes; a push is
+/// given at once, be it after a rest.
+TEST(ThrownOff, IsNotSeenWhereMotionsBegin) {
+  for (const auto& [keys, force] :
+       {std::array{"stiffness = 1e6\ndamping = 1e4\n", "0"},
+        std::array{"stiffness = 1e8\ndamping = 1\n", "0"}, std::array{"damping = 1\n", "if(t < 1, 0, 1e3)"},
+        std::array{"", "1e2*(x - 0.1)"}})
+    for (const char* method : {"linearly_implicit_euler", "rodas4"}) {
+      const PushedScene run(pushed_slide("1", "0.1", keys, force));
+      const support::ProcessResult result = run.simulate(method, "0.01", "2");
+      EXPECT_EQ(result.status, 0) << keys << force << method << result.output;
+    }
+}
+
+/// By symmetry a velocity stays rounding, which a long step may make a thousand times as much.
+TEST(ThrownOff, IsNotSeenInRounding) {
+  EXPECT_EQ(simulate_model("standing_quadruped", "linearly_implicit_euler", "0.05").status, 0);
+}
+
 /// What is stiff, or starts, changes much in a step, too.
 TEST(BlowUp, IsNotSeenInStiffMotions) {
   for (const auto& [model, method, step] :

@@ -25,6 +25,20 @@ TEST(Keys, MakeThePageOfTheModels) {
       << "jourdain keys --markdown > models/README.md";
 }
 
+/// What the page says: its examples, in order, are one model of that folder.
+TEST(Keys, HaveExamplesThatAreAModel) {
+  const support::TemporaryFolder folder;
+  std::string text;
+  for (const model::KeySection& section : model::key_sections()) text += std::string(section.example) + "\n";
+  support::write_file(folder.path() + "/engine.toml", text);
+  support::write_file(folder.path() + "/flyball_governor.toml",
+                      support::read_file(JOURDAIN_SOURCE_DIR "/models/flyball_governor.toml"));
+  const support::ProcessResult checked =
+      support::run_process({JOURDAIN_BINARY, "check", folder.path() + "/engine.toml"});
+  EXPECT_EQ(checked.status, 0) << checked.output;
+  EXPECT_THAT(checked.output, testing::HasSubstr("ok: engine"));
+}
+
 TEST(Keys, MakeASchemaWithAllSections) {
   const std::string text = keys({"--schema"}).output;
   const auto schema = nlohmann::json::parse(text);

@@ -52,11 +52,31 @@ std::vector<std::string> flags_of(const std::string& model, const std::string& r
           "-DREAL=" + real};
 }
 
-/// Of a model whose files are in generated/: its coordinates and what is trusted, in all digits.
-void expect_host_bits(const std::string& model, const std::string& real) {
-  SCOPED_TRACE(model + " in " + real);
+/// Of the crane, emitted into a folder, which steps implicitly.
+std::vector<std::string> flags_of_implicit_steps(const std::string& folder) {
+  output_of({JOURDAIN_BINARY, "compile", kRoot + "/models/crane.toml", "--functions",
+             "initial_state,forward_dynamics,rodas4_step", "-o", folder});
+  return {"-I",
+          kRoot + "/runtime",
+          "-I",
+          folder,
+          "-DNAME=crane",
+          "-DKERNELS=\"crane_kernels.hpp\"",
+          "-DMODEL=crane::Model",
+          "-DREAL=double",
+          "-DSTEP=rodas4_step"};
+}
+
+/// Of the glider, which calls functions that its user writes.
+std::vector<std::string> flags_of_own_functions() {
+  std::vector<std::string> flags = flags_of("glider", "double");
+  flags.insert(flags.end(), {"-I", kRoot + "/models", "-DFUNCTIONS=\"glider_functions.hpp\""});
+  return flags;
+}
+
+/// Of a model: its coordinates and what is trusted, in all digits.
+void expect_host_bits(const std::vector<std::string>& flags, const std::string& real) {
   const support::TemporaryFolder folder;
-  const std::vector<std::string> flags = flags_of(model, real);
   const std::string device = output_in_halves(kPrograms + "/device.cpp", folder.path() + "/device", flags);
   const std::string host = output_of_host(kPrograms + "/device.cpp", folder.path() + "/host", flags);
   EXPECT_EQ(device, host);
@@ -65,6 +85,12 @@ void expect_host_bits(const std::string& model, const std::string& real) {
   const std::string assembly = support::read_file(folder.path() + "/device.ptx");
   EXPECT_NE(assembly.find(".entry"), std::string::npos);
   EXPECT_EQ(assembly.find(".f64") != std::string::npos, real == "double") << "float is float";
+}
+
+/// Of one whose files are in generated/.
+void expect_host_bits(const std::string& model, const std::string& real) {
+  SCOPED_TRACE(model + " in " + real);
+  expect_host_bits(flags_of(model, real), real);
 }
 
 TEST(DevicePrograms, HaveTheBitsOfTheHost) {
@@ -76,11 +102,20 @@ TEST(DevicePrograms, ReadTables) { expect_host_bits("wind_turbine", "float"); }
 
 TEST(DevicePrograms, CloseLoops) { expect_host_bits("four_bar", "double"); }
 
+TEST(DevicePrograms, StepImplicitly) {
+  const support::TemporaryFolder folder;
+  expect_host_bits(flags_of_implicit_steps(folder.path()), "double");
+}
+
+TEST(DevicePrograms, CallFunctionsOfTheirUser) { expect_host_bits(flags_of_own_functions(), "double"); }
+
 /// Debian's compiler of NVIDIA is no part of what tests need.
 TEST(DevicePrograms, AreCompiledByNvccWithoutWarnings) {
   if (support::run_process({"sh", "-c", "command -v nvcc"}).status != 0) GTEST_SKIP() << "no nvcc";
-  for (const auto& [model, real] : {std::pair("wind_turbine", "float"), std::pair("four_bar", "double")}) {
-    SCOPED_TRACE(model);
+  const support::TemporaryFolder crane;
+  for (const std::vector<std::string>& flags :
+       {flags_of("wind_turbine", "float"), flags_of("four_bar", "double"),
+        flags_of_implicit_steps(crane.path()), flags_of_own_functions()}) {
     const support::TemporaryFolder folder;
     std::vector<std::string> command = {"nvcc",
                                         "-x",
@@ -91,7 +126,6 @@ TEST(DevicePrograms, AreCompiledByNvccWithoutWarnings) {
                                         "-o",
                                         folder.path() + "/device",
                                         kPrograms + "/device.cpp"};
-    const std::vector<std::string> flags = flags_of(model, real);
     command.insert(command.end(), flags.begin(), flags.end());
     output_of(command);
   }

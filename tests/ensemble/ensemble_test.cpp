@@ -68,7 +68,8 @@ TEST(Ensembles, DependOnNeitherThreadsNorNeighbours) {
   using Many = Ensemble<panda_packs::Model, double, 4>;
   Many one = started<Many>();
   one.run(rk4, kStep, 30);
-  for (const std::size_t threads : {0, 2, 3, 16}) {
+  for (const std::size_t threads :
+       {std::size_t(0), std::size_t(2), std::size_t(3), std::size_t(16), ~std::size_t(0)}) {
     Many same = started<Many>();
     same.run(rk4, kStep, 10, threads);
     same.run(rk4, kStep, 20, threads);

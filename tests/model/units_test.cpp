@@ -5,8 +5,13 @@
 
 #include <cmath>
 #include <numbers>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "model/read/read.hpp"
+#include "support/files.hpp"
 
 namespace jourdain::model {
 namespace {
@@ -53,6 +58,19 @@ TEST(Units, HaveTheirFactorsDimensionsAndSpellingsInSi) {
   }
   EXPECT_EQ(in_si(100, unit("mm")), 0.1);
   EXPECT_EQ(in_si(180, unit("deg")), std::numbers::pi);
+}
+
+TEST(Units, AreListedOnThePageOfExpressions) {
+  const std::string page = support::read_file(JOURDAIN_SOURCE_DIR "/models/expressions.md");
+  const std::size_t begin = page.find("    m km"), end = page.find("\n\n", begin);
+  ASSERT_LT(begin, page.size());
+  std::string list = page.substr(begin, end - begin);
+  std::erase(list, ',');
+  std::istringstream words(list);
+  std::vector<std::string> listed;
+  for (std::string word; words >> word;) listed.push_back(word);
+  const std::vector<std::string_view> known = unit_symbols();
+  EXPECT_EQ(listed, std::vector<std::string>(known.begin(), known.end()));
 }
 
 TEST(Units, AreRefusedAtThePlaceWhereTheyAreNone) {

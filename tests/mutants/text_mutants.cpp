@@ -242,12 +242,14 @@ std::string same_because(const std::vector<FileText>& files, const TextSite& sit
   const bool of_number = site.fault == TextFault::kIndex || site.fault == TextFault::kDigit;
   if (of_number && (is_in_line("], sum_z[") || is_in_line("  Real y["))) return "a scratch array is longer";
   const bool of_coupled = is_in_line("W[i][k] =") || is_in_line("W[k][i] =") || is_in_line("[i][k] * c[k]") ||
-                          is_in_line("[k][i] * c[i]") || is_in_line("coupled[p]") ||
-                          is_in_line("coupled[q]") || is_in_line("first_coupled[k]");
-  if (of_coupled && text.find("int coupled[] = {0};") != std::string::npos)
+                          is_in_line("[k][i] * c[i]") || is_in_line("coupled(p)") ||
+                          is_in_line("coupled(q)") || is_in_line("first_coupled(k)");
+  if (of_coupled &&
+      text.find("int coupled(int k) noexcept {\n  static constexpr int list[] = {0};") != std::string::npos)
     return "velocities are not coupled, so it is never executed";
-  if (site.fault == TextFault::kNegative && line.find("= first_coupled[k]; ") != std::string::npos &&
-      text.find("int first_coupled[] = {0, 0, 1};") != std::string::npos)
+  if (site.fault == TextFault::kNegative && line.find("= first_coupled(k); ") != std::string::npos &&
+      text.find("int first_coupled(int k) noexcept {\n  static constexpr int list[] = {0, 0, 1};") !=
+          std::string::npos)
     return "minus zero is zero";
   return "";
 }

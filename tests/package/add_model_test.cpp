@@ -62,6 +62,11 @@ TEST(AddModel, SaysWhatIsWrongWithItsArguments) {
                  "LANGUAGE is 'ada', must be one of cpp, c");
   expect_message("jourdain_add_model(arm MODEL arm.toml INTERFACE)",
                  "INTERFACE is in C, it needs LANGUAGE c");
+  expect_message("jourdain_add_model(arm MODEL arm.toml OPTIONS --strict --language c)",
+                 "OPTIONS has --language; NAME, LANGUAGE, REAL and INTERFACE say which files there are");
+  expect_message("jourdain_add_model(arm MODEL arm.toml LANGUAGE c OPTIONS --real=float)",
+                 "OPTIONS has --real;");
+  expect_message("jourdain_add_model(arm MODEL \"a;b.toml\")", "MODEL is 'a;b.toml', which has a semicolon");
   expect_message("jourdain_add_model(my-arm MODEL arm.toml)",
                  "'my-arm' cannot be the name of a namespace and of files; choose one with NAME");
   expect_message("add_custom_target(arm)\njourdain_add_model(arm MODEL arm.toml)",
@@ -76,11 +81,24 @@ TEST(FindPackage, SaysWhyThereIsNone) {
   const Project project("", "NONE");
   EXPECT_THAT(unbroken(project.configure({"-DJOURDAIN_COMMAND=/bin/false"}).output),
               HasSubstr("'/bin/false' does not run on this machine (1)"));
+  EXPECT_THAT(unbroken(project.configure({"-DJOURDAIN_COMMAND=./false"}).output),
+              HasSubstr("JOURDAIN_COMMAND is './false', must be an absolute path"));
   project.write("older", "#!/bin/sh\necho jourdain 0.0.9\n");
   std::filesystem::permissions(project.folder() + "/older", std::filesystem::perms::owner_all);
   EXPECT_THAT(unbroken(project.configure({"-DJOURDAIN_COMMAND=" + project.folder() + "/older"}).output),
               HasSubstr("is jourdain 0.0.9, this package is of "));
   EXPECT_EQ(project.configure({"-DJOURDAIN_COMMAND=" JOURDAIN_BINARY}).status, 0);
+}
+
+/// A target that is called as the C library's part for mathematics, in a unity build.
+TEST(AddModel, MakesALibraryOfCWhateverTheProjectSets) {
+  const Project project(
+      "set(CMAKE_UNITY_BUILD ON)\njourdain_add_model(m MODEL arm.toml LANGUAGE c INTERFACE NAME arm)", "C");
+  project.write("arm.toml", kArm);
+  const support::ProcessResult configured = project.configure();
+  ASSERT_EQ(configured.status, 0) << configured.output;
+  const support::ProcessResult built = project.build();
+  EXPECT_EQ(built.status, 0) << built.output;
 }
 
 class Rebuild : public testing::TestWithParam<const char*> {};

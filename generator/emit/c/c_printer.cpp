@@ -47,7 +47,7 @@ class BodyPrinter {
         function_(function),
         inputs_(inputs),
         expressions_(names_, scope_) {
-    for (const char* table : {"coupled", "first_coupled"})
+    for (const char* table : kTables)
       scope_.add(table, CVariable{{CType::Kind::kInteger}, false, names_.internal(table)});
     for (const std::string& member : of_model) scope_.add(member, CVariable{{}, false, "model->" + member});
     for (const Parameter& p : function.parameters)

@@ -134,7 +134,12 @@ std::string support_text(const Support& support, bool samples_inputs) {
   for (const Struct& of : support.structs) text += support_struct(of);
   for (const Table& table : support.tables) {
     if (!table.comment.empty()) text += "\n" + wrapped_comment(table.comment);
-    text += fmt::format("constexpr int {}[] = {{{}}};\n", table.name, fmt::join(table.entries, ", "));
+    text += fmt::format(
+        "JOURDAIN_FUNCTION inline int {}(int k) noexcept {{\n"
+        "  static constexpr int list[] = {{{}}};\n"
+        "  return list[k];\n"
+        "}}\n",
+        table.name, fmt::join(table.entries, ", "));
   }
   for (const Function& function : support.functions) text += support_function(function);
   return text;

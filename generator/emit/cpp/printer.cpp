@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "emit/constant_tables.hpp"
 #include "emit/function_names.hpp"
 #include "emit/layout.hpp"
@@ -27,6 +29,10 @@ struct Text {
   std::string text;
   Strength strength = Strength::kAtom;
 };
+
+bool is_table(const Expression& e) {
+  return e.kind == Kind::kName && std::find(kTables.begin(), kTables.end(), e.name) != kTables.end();
+}
 
 std::string lanes_type(std::size_t count, const std::string& real) {
   return fmt::format("detail::Lanes<{}, {}>", count, real);
@@ -58,6 +64,7 @@ class ExpressionPrinter {
       case Kind::kMember:
         return {whole(e, 0) + "." + e.name};
       case Kind::kEntry:
+        if (is_table(e.operands[0])) return {fmt::format("{}({})", whole(e, 0), whole(e, 1))};
         return {fmt::format("{}[{}]", whole(e, 0), whole(e, 1))};
       case Kind::kFrom:
         return {fmt::format("{} + {}", whole(e, 0), whole(e, 1)), Strength::kSum};

@@ -94,7 +94,8 @@ KeySection joint_section() {
   return {
       "joint",
       "[[joint]]",
-      "Joints make a tree: each body is the child of one. A joint with one coordinate gives its name to it.",
+      "Joints make a tree: each body is the child of one. A joint with one coordinate gives its name to it; "
+      "of others they are called JOINT_COORDINATE: slab_angle of a planar joint slab.",
       {{"name", "name", "", kRequired, "an identifier"},
        {"type", "word", "", kRequired,
         "fixed, revolute, prismatic, screw, cylindrical, universal, planar, spherical, free, curve, gimbal, "
@@ -311,7 +312,7 @@ KeySection loops_section() {
            {"stabilisation", "constant", "1/s", "0", "multipliers: damps what opens between projections"}},
           R"([loops]
 treatment = "explicit"
-independent = ["crank"]
+independent = ["crank", "governor_slider", "governor_arm1", "governor_arm2"]
 )"};
 }
 

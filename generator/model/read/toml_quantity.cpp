@@ -20,6 +20,12 @@ bool starts_word(std::string_view text) {
 
 std::string_view first_word(std::string_view text) { return text.substr(0, text.find_first_of(" */^()+-")); }
 
+constexpr const char* kHertz = "Hz may count turns or radians; rev/s and rad/s say which";
+
+bool is_ambiguous(const Unit& unit, const Needed& needed) {
+  return unit.si.find("Hz") != std::string::npos && in_words(needed).find("rad/s") != std::string::npos;
+}
+
 }  // namespace
 
 std::optional<Measure> TomlFile::measure_of(std::string_view name, const Scope& scope) const {
@@ -57,6 +63,7 @@ Expression TomlFile::converted(const Quantity& quantity, const toml::value<std::
   if (!quantity.unit) return unread();
   const Measure measure = Measure::parameter(quantity.unit->si);
   if (!measure.fits(place.needed)) return misfit(text, measure, place, quantity.hint);
+  if (is_ambiguous(*quantity.unit, place.needed)) return misfit(text, measure, place, kHertz);
   const double value = in_si(quantity.value, *quantity.unit);
   if (std::isfinite(value)) return value;
   return number_error(range(text.source()), fmt::format("{} is not finite in SI units", place.what));
@@ -84,8 +91,9 @@ std::optional<Unit> TomlFile::unit_apart(const toml::table& table, const Place& 
   if (!unit || error_count_ != mark) return {};
   const auto& text = *table.get("unit")->as_string();
   const Measure measure = Measure::parameter(this->text(text));
-  if (measure.fits(place.needed)) return unit;
-  misfit(text, measure, place, "");
+  const bool is_hertz = is_ambiguous(*unit, place.needed);
+  if (measure.fits(place.needed) && !is_hertz) return unit;
+  misfit(text, measure, place, is_hertz ? kHertz : "");
   return {};
 }
 
