@@ -166,14 +166,15 @@ std::string breach_text(const Flow<double>& flow, const model::Tangent& tangent,
                              "error: a step of {:g} s is too long: {}; take a shorter one or --method "
                              "rodas4\n",
                              h, why);
-  const bool is_thrown = breach.of == Breach::Of::kStep;
+  const bool is_thrown = breach.of == Breach::Of::kThrown;
   if (!is_thrown && is_singular(flow, breach.last, h))
     return fmt::format(
         "error: the equations of motion have no finite rates from t = {:g} s on: the mass matrix is singular "
         "there, or "
         "a force has no value\n",
         breach.last.t);
-  const std::string growth = why.empty() ? growth_limit_text(flow, breach.last, tangent, h) : std::string();
+  const std::string growth =
+      why.empty() && !is_thrown ? growth_limit_text(flow, breach.last, tangent, h) : std::string();
   if (why.empty()) why = step_limit_text(flow, breach.last, tangent, method, h);
   const std::string verdict =
       !growth.empty() ? growth

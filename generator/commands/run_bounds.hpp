@@ -42,7 +42,7 @@ struct Breach {
   studies::Point<double> last, end;  ///< one step apart; within and out of bounds
   std::string what;                  ///< as RunBounds::breach, LoopGuard::problem or StepGuard says
   /// Bounds that the run leaves, loops that open, a motion that grows, or one that the step throws off.
-  enum class Of { kBounds, kLoops, kGrowth, kStep } of = Of::kBounds;
+  enum class Of { kBounds, kLoops, kGrowth, kThrown } of = Of::kBounds;
 };
 
 /// The error message: where and how, and why. Either rates are not finite at `last` or half a step or one from

@@ -94,6 +94,13 @@ std::vector<std::size_t> Signals::positions() const {
   return indices;
 }
 
+std::vector<std::string> Signals::velocity_units() const {
+  std::vector<std::string> units;
+  for (std::size_t i = positions_; i < state_; ++i)
+    units.push_back(list_[i].kind == "velocity" ? list_[i].unit : "");
+  return units;
+}
+
 std::vector<double> Signals::values(const studies::Flow<double>& flow, const studies::Point<double>& point,
                                     bool outputs) const {
   const jourdain_model_table& table = flow.table();

@@ -33,6 +33,8 @@ class Signals {
   /// numbers of the output or of the member of one that has that name.
   std::vector<std::size_t> matching(const std::string& pattern) const;
   std::vector<std::size_t> positions() const;
+  /// Of the entries of z; empty of states.
+  std::vector<std::string> velocity_units() const;
 
   /// Values at a point, in order; without the outputs where these are not wanted.
   std::vector<double> values(const studies::Flow<double>& flow, const studies::Point<double>& point,

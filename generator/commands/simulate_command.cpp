@@ -78,7 +78,7 @@ class Simulation {
         bounds_(flow, flow.start(), conserves_energy),
         conserves_energy_(conserves_energy),
         guard_(guard),
-        step_guard_(flow, method_, arguments.step) {
+        step_guard_(flow, method_, arguments.step, signals.velocity_units()) {
     state_.open = flow.residuals(flow.start());
     state_.first_energy = flow.energy(flow.start());
     for (const std::size_t i : selection.drawn) state_.drawn.push_back({signals.list()[i], {}});
@@ -133,7 +133,8 @@ class Simulation {
       state_.breach = {before, point, what,
                        bounds_.breach(point).empty() ? Breach::Of::kLoops : Breach::Of::kBounds};
     else if (const StepGuard::Problem found = step_guard_.problem(before, point); !found.what.empty())
-      state_.breach = {before, point, found.what, found.is_thrown ? Breach::Of::kStep : Breach::Of::kGrowth};
+      state_.breach = {before, point, found.what,
+                       found.is_thrown ? Breach::Of::kThrown : Breach::Of::kGrowth};
     if (conserves_energy_) {
       state_.largest_drift =
           std::max(state_.largest_drift, std::fabs(flow_.energy(point) - state_.first_energy));

@@ -19,10 +19,10 @@ constexpr double kMuch = 0.5;     // of the largest velocity that there was
 constexpr double kPushed = 0.25;  // of a velocity, by a step at the acceleration before
 constexpr double kGrowth = 0.5;   // in a step, as an exponent
 constexpr double kFarOff = 10;    // times what there was
+constexpr double kThrown = 5;     // times what shorter steps do
 constexpr int kParts[] = {64, 250, 1000}, kFewParts[] = {64, 250};
 constexpr long kFirst = 4;       // steps or parts, which change all there is where a motion starts from rest
 constexpr double kMissed = 0.1;  // of a change
-constexpr double kSeen = 1e-3;   // of the largest velocity
 /// Growth itself grows so many times in a step, and is so fast after it, where a motion ends within the step or soon
 /// after: as 1/(the time that is left).
 constexpr double kFaster = 3, kFast = 2.5;
@@ -31,8 +31,9 @@ constexpr double kRounding = 1e-9;
 
 }  // namespace
 
-StepGuard::StepGuard(const Flow<double>& flow, const jourdain_method& method, double h)
-    : flow_(flow), method_(method), h_(h) {
+StepGuard::StepGuard(const Flow<double>& flow, const jourdain_method& method, double h,
+                     std::vector<std::string> units)
+    : flow_(flow), method_(method), h_(h), units_(std::move(units)) {
   fastest_.resize(flow.size() - flow.position_count());
   remember(flow.start().x.data() + flow.position_count());
 }
@@ -66,28 +67,33 @@ std::vector<StepGuard::Growth> StepGuard::growing(const Point<double>& point,
   return list;
 }
 
+/// Changes below this share may be rounding.
+double StepGuard::rounding() const {
+  constexpr double kRoundings = 64;
+  return std::max(kRounding, kRoundings * flow_.table().unit_roundoff);
+}
+
 /// The real part of the fastest growing mode, 1/s: by differences over a thousandth of what a step changes, be it
 /// micrometres. Entries of x count as if each were free.
 double StepGuard::fastest_mode(const Point<double>& point) const {
-  constexpr double kShare = 1e-3, kLeast = 1e-9, kRoundings = 64;
+  constexpr double kShare = 1e-3;
   const std::vector<double> rates = flow_.rates(point.t, point.x);
-  const double least = std::max(kLeast, kRoundings * flow_.table().unit_roundoff);
   std::vector<double> changes;
   for (std::size_t k = 0; k < point.x.size(); ++k)
     changes.push_back(
-        std::max(kShare * h_ * std::fabs(rates[k]), least * std::max(1.0, std::fabs(point.x[k]))));
+        std::max(kShare * h_ * std::fabs(rates[k]), rounding() * std::max(1.0, std::fabs(point.x[k]))));
   const Eigen::MatrixXd J = studies::jacobian(flow_, point, changes);
   return J.allFinite() ? studies::spectrum(J).values.real().maxCoeff() : 0;
 }
 
-/// The step in `parts`; where one of them changes one of these velocities by more than half of the largest that there
-/// was by then, `jumped` is the first of them.
+/// So many steps, each in `parts`; where one of these changes one of the velocities by more than half of the largest
+/// that there was by then, `jumped` is the first of them.
 StepGuard::Path StepGuard::in_parts(const Point<double>& before, int parts,
-                                    const std::vector<Growth>& growing) const {
+                                    const std::vector<Growth>& growing, int steps) const {
   Path path = {before, std::vector<double>(fastest_.size()), nullptr};
   studies::Memory memory = flow_.fresh_memory(method_);
   std::vector<double> fastest = fastest_;
-  for (long part = 0; part < parts && !path.jumped; ++part) {
+  for (long part = 0; part < long{steps} * parts && !path.jumped; ++part) {
     const std::vector<double> last = path.end.x;
     flow_.step(method_, path.end, h_ / parts, 1, memory);
     for (std::size_t k = 0; k < fastest_.size(); ++k) {
@@ -123,33 +129,41 @@ const StepGuard::Growth* StepGuard::lost(const Point<double>& before, const Poin
   return nullptr;
 }
 
+/// The largest of some values of the velocities of a unit.
+StepGuard::Largest StepGuard::largest(const std::string& unit, const std::vector<double>& values) const {
+  Largest found;
+  for (std::size_t k = 0; k < values.size(); ++k)
+    if (units_[k] == unit && values[k] > found.value) found = {values[k], k};
+  return found;
+}
+
 /// What the step throws off; empty: nothing.
 std::string StepGuard::thrown_off(const Point<double>& before, const Point<double>& after) const {
-  constexpr double kRoundings = 64;
-  const std::size_t first = flow_.position_count();
-  const auto change = [&](std::size_t k) { return std::fabs(after.x[first + k] - before.x[first + k]); };
-  double largest = 1;
-  for (const double entry : before.x) largest = std::max(largest, std::fabs(entry));
-  double seen = std::max(kRounding, kRoundings * flow_.table().unit_roundoff) * largest / h_;
-  for (std::size_t k = 0; k < fastest_.size(); ++k)
-    seen = std::max({seen, kSeen * fastest_[k], kSeen * std::fabs(after.x[first + k])});
-  std::vector<std::size_t> thrown;
-  for (std::size_t k = 0; k < fastest_.size(); ++k)
-    if (change(k) > std::max(kFarOff * fastest_[k], seen)) thrown.push_back(k);
-  double followed = 0;
-  for (const int parts : kFewParts) {
-    if (thrown.empty()) return "";
-    const Path path = in_parts(before, parts, {});
-    const auto is_followed = [&](std::size_t k) { return !(path.changes[k] < kMissed * change(k)); };
-    thrown.erase(std::remove_if(thrown.begin(), thrown.end(), is_followed), thrown.end());
-    if (!thrown.empty()) followed = path.changes[thrown.front()];
+  std::vector<double> changes;
+  for (std::size_t i = flow_.position_count(); i < before.x.size(); ++i)
+    changes.push_back(std::fabs(after.x[i] - before.x[i]));
+  double size = 1;
+  for (const double entry : before.x) size = std::max(size, std::fabs(entry));
+  for (const char* unit : {"m/s", "rad/s"}) {
+    const Largest change = largest(unit, changes);
+    if (!(change.value * h_ > rounding() * size) || !(change.value > largest(unit, fastest_).value)) continue;
+    double followed = 0;
+    const auto is_thrown = [&](int parts) {
+      const Path path = in_parts(before, parts, {}, 2);
+      followed = largest(unit, path.changes).value;
+      return change.value > kThrown * followed &&
+             std::all_of(path.end.x.begin(), path.end.x.end(),
+                         [](double entry) { return std::isfinite(entry); });
+    };
+    if (std::all_of(std::begin(kFewParts), std::end(kFewParts), is_thrown))
+      return fmt::format(
+          "the step from t = {:g} s on throws '{}' off: it changes by {:.2g} {}, nothing by more than {:.2g} "
+          "{} in {} "
+          "shorter ones and as many after them",
+          before.t, flow_.table().velocity_names[change.velocity], change.value, unit, followed, unit,
+          kFewParts[1]);
   }
-  if (thrown.empty()) return "";
-  const std::size_t k = thrown.front();
-  return fmt::format(
-      "the step from t = {:g} s on throws '{}' off: it changes by {:.2g} (SI units), in {} shorter ones by "
-      "{:.2g} at most",
-      before.t, flow_.table().velocity_names[k], change(k), kFewParts[1], followed);
+  return "";
 }
 
 /// What grows faster than the step follows; empty: nothing.
@@ -167,8 +181,9 @@ std::string StepGuard::outgrown(const Point<double>& before, const Point<double>
 }
 
 StepGuard::Problem StepGuard::problem(const Point<double>& before, const Point<double>& after) {
+  ++steps_;
   Problem found = {thrown_off(before, after), true};
-  if (found.what.empty()) found = {++steps_ > kFirst ? outgrown(before, after) : "", false};
+  if (found.what.empty() && steps_ > kFirst) found = {outgrown(before, after), false};
   remember(after.x.data() + flow_.position_count());
   return found;
 }

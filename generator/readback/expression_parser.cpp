@@ -243,7 +243,7 @@ const Expression* ExpressionParser::postfix() {
 
 /// `detail::number<Real>(x)` of text for packs is Real(x), `table(i)` an entry.
 const Expression* ExpressionParser::cpp_call(Expression& call) {
-  if (call.a->kind == ExpressionKind::kName && known_.tables.contains(call.a->name) &&
+  if (call.a->kind == ExpressionKind::kName && !call.a->type && known_.tables.contains(call.a->name) &&
       call.arguments.size() == 1) {
     call.kind = ExpressionKind::kSubscript;
     call.b = call.arguments.front();

@@ -152,7 +152,8 @@ class FileParser : public StatementParser {
       constant(is_inline);
       return;
     }
-    if (is_inline && is_word("int")) return table();
+    if (is_function && is_inline && is_word("int") && !function.is_template && !function.has_stages)
+      return table();
     function.is_inline = is_inline;
     if (is_constructor_outside()) {
       constructor_outside(function);
@@ -226,9 +227,11 @@ class FileParser : public StatementParser {
     expect_word("int");
     const Symbol name = expect_name();
     expect_text("(int k) noexcept { static constexpr");
+    if (!is_word("int")) refuse_here("whole numbers");
     Constant& made = constant(false);
     expect_text("return list[k]; }");
-    if (unit_.symbols.text(made.declarator.name) != "list") refuse_here("a list");
+    if (unit_.symbols.text(made.declarator.name) != "list" || made.declarator.bounds.size() != 1)
+      refuse_here("a list");
     made.declarator.name = name;
     known_.tables.insert(name);
   }

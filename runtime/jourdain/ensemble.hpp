@@ -11,10 +11,6 @@
 // What a state ends in depends neither on the number of threads nor on what lies beside it.
 #pragma once
 
-#if defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__
-#error "jourdain/ensemble.hpp finds numbers that are not finite: no -ffast-math, -Ofast, -ffinite-math-only"
-#endif
-
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
@@ -107,7 +103,7 @@ class Ensemble {
         run_block(b, stepper, h, steps, before);
     };
     std::vector<std::future<void>> others;
-    others.reserve(std::min(parts, blocks_.size()));
+    others.reserve(parts);
     for (std::size_t begin = size; begin < blocks_.size(); begin += size) {
       try {
         others.push_back(std::async(std::launch::async, run_part, begin));

@@ -11,9 +11,9 @@
 #if !defined(__GNUC__)
 #error "jourdain/pack.hpp needs vectors as GCC and Clang have them"
 #endif
-// Clang is told apart for these functions alone.
-#if (defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__)) && !defined(__clang__)
-#error "jourdain/pack.hpp needs sums as they are written: no -ffast-math, -Ofast, -fassociative-math with g++"
+#if (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__) || \
+    (defined(__ASSOCIATIVE_MATH__) && !defined(__clang__))
+#error "jourdain/pack.hpp: no -ffast-math, -Ofast, -ffinite-math-only, nor g++'s -fassociative-math"
 #endif
 
 #include <cmath>

@@ -2,6 +2,10 @@
 // Emitted steppers as objects, and how what they end in is judged: what ensembles of all kinds have in common.
 #pragma once
 
+#if defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__
+#error "ensembles look for numbers that are not finite: no -ffast-math, -Ofast, -ffinite-math-only"
+#endif
+
 #include <type_traits>
 #include <utility>
 

@@ -37,16 +37,16 @@ function(jourdain_add_model target)
   endif()
 
   foreach(option IN LISTS arg_OPTIONS)
-    if(option MATCHES "^(--language|--real|--interface|--name|--output|--depfile|-o)(=|$)")
-      message(FATAL_ERROR "${call}: OPTIONS has ${CMAKE_MATCH_1}; NAME, LANGUAGE, REAL and INTERFACE say which files "
+    if(option MATCHES "^(--(language|real|interface|name|output|depfile)(=|$)|-o)")
+      message(FATAL_ERROR "${call}: OPTIONS has ${option}; NAME, LANGUAGE, REAL and INTERFACE say which files "
                           "there are")
     endif()
   endforeach()
 
-  if(arg_MODEL MATCHES ";")
-    message(FATAL_ERROR "${call}: MODEL is '${arg_MODEL}', which has a semicolon")
-  endif()
   get_filename_component(model "${arg_MODEL}" ABSOLUTE)
+  if(model MATCHES ";")
+    message(FATAL_ERROR "${call}: MODEL is '${model}', which has a semicolon")
+  endif()
   if(NOT EXISTS "${model}" OR IS_DIRECTORY "${model}")
     message(FATAL_ERROR "${call}: there is no file ${model}")
   endif()

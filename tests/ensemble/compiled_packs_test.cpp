@@ -38,18 +38,18 @@ TEST(CompiledPacks, RefuseFlagsThatBreakThem) {
     command.insert(command.end(), flags.begin(), flags.end());
     return support::run_process(command);
   };
-  for (const std::vector<std::string>& flags :
-       {std::vector<std::string>{"-ffast-math"}, {"-Ofast"}, {"-ffinite-math-only"}})
-    for (const char* compiler : {"g++", "clang++"}) {
-      const support::ProcessResult result = compiled(compiler, "ensemble.hpp", flags);
-      EXPECT_NE(result.status, 0) << compiler << flags[0];
-      EXPECT_NE(result.output.find("-ffinite-math-only"), std::string::npos) << result.output;
-    }
-  for (const std::vector<std::string>& flags :
-       {std::vector<std::string>{"-Ofast"},
-        {"-fassociative-math", "-fno-signed-zeros", "-fno-trapping-math"}})
-    EXPECT_NE(compiled("g++", "pack.hpp", flags).status, 0) << flags[0];
-  EXPECT_EQ(compiled("clang++", "pack.hpp", {"-ffast-math"}).status, 0);
+  const auto expect_refusal = [&compiled](const std::string& compiler, const std::string& header,
+                                          const std::vector<std::string>& flags) {
+    const support::ProcessResult result = compiled(compiler, header, flags);
+    EXPECT_NE(result.status, 0) << compiler << header << flags[0];
+    EXPECT_NE(result.output.find("no -ffast-math, -Ofast, -ffinite-math-only"), std::string::npos)
+        << result.output;
+  };
+  for (const char* flag : {"-ffast-math", "-Ofast", "-ffinite-math-only"})
+    for (const char* compiler : {"g++", "clang++"})
+      for (const char* header : {"ensemble.hpp", "device_ensemble.hpp", "pack.hpp"})
+        expect_refusal(compiler, header, {flag});
+  expect_refusal("g++", "pack.hpp", {"-fassociative-math", "-fno-signed-zeros", "-fno-trapping-math"});
   EXPECT_EQ(compiled("g++", "ensemble.hpp", {"-O3", "-fno-math-errno"}).status, 0);
 }
 

@@ -65,8 +65,8 @@ TEST(AddModel, SaysWhatIsWrongWithItsArguments) {
   expect_message("jourdain_add_model(arm MODEL arm.toml OPTIONS --strict --language c)",
                  "OPTIONS has --language; NAME, LANGUAGE, REAL and INTERFACE say which files there are");
   expect_message("jourdain_add_model(arm MODEL arm.toml LANGUAGE c OPTIONS --real=float)",
-                 "OPTIONS has --real;");
-  expect_message("jourdain_add_model(arm MODEL \"a;b.toml\")", "MODEL is 'a;b.toml', which has a semicolon");
+                 "OPTIONS has --real=float;");
+  expect_message("jourdain_add_model(arm MODEL \"a;b.toml\")", "a;b.toml', which has a semicolon");
   expect_message("jourdain_add_model(my-arm MODEL arm.toml)",
                  "'my-arm' cannot be the name of a namespace and of files; choose one with NAME");
   expect_message("add_custom_target(arm)\njourdain_add_model(arm MODEL arm.toml)",

@@ -133,8 +133,10 @@ class Suite {
     const bool ends_descent = line.ends_with(" - 1; k >= 0; --k)") || line.ends_with(" - 1; k >= 0; --k) {");
     const bool is_array =
         line.starts_with("  Real y[") || line.starts_with("  double y[") || line.starts_with("  float y[");
-    const bool is_uncoupled = whole.find("list[] = {0, 0};") != std::string::npos ||
-                              whole.find("first_coupled[2] = {0, 0};") != std::string::npos;
+    const bool is_uncoupled =
+        whole.find("first_coupled(int k) noexcept {\n  static constexpr int list[] = {0, 0};") !=
+            std::string::npos ||
+        whole.find("first_coupled[2] = {0, 0};") != std::string::npos;
     // Mass matrices of the governor and the crane are diagonal.
     const bool is_mass = line.find("= step.W[k][i] + ") != std::string::npos ||
                          line.find("= step->W[i][k] + ") != std::string::npos;

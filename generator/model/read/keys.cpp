@@ -95,7 +95,8 @@ KeySection joint_section() {
       "joint",
       "[[joint]]",
       "Joints make a tree: each body is the child of one. A joint with one coordinate gives its name to it; "
-      "of others they are called JOINT_COORDINATE: slab_angle of a planar joint slab.",
+      "one with "
+      "several has JOINT_COORDINATE, as slab_angle of a planar joint slab.",
       {{"name", "name", "", kRequired, "an identifier"},
        {"type", "word", "", kRequired,
         "fixed, revolute, prismatic, screw, cylindrical, universal, planar, spherical, free, curve, gimbal, "

@@ -23,7 +23,8 @@ std::string_view first_word(std::string_view text) { return text.substr(0, text.
 constexpr const char* kHertz = "Hz may count turns or radians; rev/s and rad/s say which";
 
 bool is_ambiguous(const Unit& unit, const Needed& needed) {
-  return unit.si.find("Hz") != std::string::npos && in_words(needed).find("rad/s") != std::string::npos;
+  return unit.si.find("Hz") != std::string::npos && unit.si.find("rad") == std::string::npos &&
+         needed.units == needed::kAngularRate.units;
 }
 
 }  // namespace
