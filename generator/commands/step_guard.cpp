@@ -151,7 +151,7 @@ std::string StepGuard::thrown_off(const Point<double>& before, const Point<doubl
     const auto is_thrown = [&](int parts) {
       const Path path = in_parts(before, parts, {}, 2);
       followed = largest(unit, path.changes).value;
-      return change.value > kThrown * followed &&
+      return change.value > kFarOff * followed &&
              std::all_of(path.end.x.begin(), path.end.x.end(),
                          [](double entry) { return std::isfinite(entry); });
     };

