@@ -19,7 +19,6 @@ constexpr double kMuch = 0.5;     // of the largest velocity that there was
 constexpr double kPushed = 0.25;  // of a velocity, by a step at the acceleration before
 constexpr double kGrowth = 0.5;   // in a step, as an exponent
 constexpr double kFarOff = 10;    // times what there was
-constexpr double kThrown = 5;     // times what shorter steps do
 constexpr int kParts[] = {64, 250, 1000}, kFewParts[] = {64, 250};
 constexpr long kFirst = 4;       // steps or parts, which change all there is where a motion starts from rest
 constexpr double kMissed = 0.1;  // of a change
