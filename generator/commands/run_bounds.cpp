@@ -154,39 +154,68 @@ bool is_singular(const Flow<double>& flow, const Point<double>& point, double h)
   return false;
 }
 
-}  // namespace
+/// step_limit_text at the start, or else at the last point within bounds.
+std::string step_limit_text(const Flow<double>& flow, const model::Tangent& tangent, const Breach& breach,
+                            const std::string& method, double h) {
+  const std::string limit = step_limit_text(flow, flow.start(), tangent, method, h);
+  return limit.empty() ? step_limit_text(flow, breach.last, tangent, method, h) : limit;
+}
 
-std::string breach_text(const Flow<double>& flow, const model::Tangent& tangent, const Breach& breach,
+std::string growth_text(const Flow<double>& flow, const model::Tangent& tangent, const Breach& breach,
                         const std::string& method, double h) {
-  if (breach.of == Breach::Of::kLoops) return fmt::format("error: {}\n", breach.what);
-  std::string why = step_limit_text(flow, flow.start(), tangent, method, h);
-  if (breach.of == Breach::Of::kGrowth)
-    return why.empty() ? fmt::format("error: {}\n", breach.what)
+  const std::string limit = step_limit_text(flow, flow.start(), tangent, method, h);
+  return limit.empty() ? fmt::format("error: {}\n", breach.what)
                        : fmt::format(
                              "error: a step of {:g} s is too long: {}; take a shorter one or --method "
                              "rodas4\n",
-                             h, why);
-  const bool is_thrown = breach.of == Breach::Of::kThrown;
-  if (!is_thrown && is_singular(flow, breach.last, h))
+                             h, limit);
+}
+
+std::string thrown_text(const Flow<double>& flow, const model::Tangent& tangent, const Breach& breach,
+                        const std::string& method, double h) {
+  const std::string limit = step_limit_text(flow, tangent, breach, method, h);
+  return fmt::format("error: {}\n  a step of {:g} s is too long{}\n", breach.what, h,
+                     limit.empty() ? "; take a shorter one"
+                                   : fmt::format(": {}; take a shorter one or --method rodas4", limit));
+}
+
+std::string bounds_text(const Flow<double>& flow, const model::Tangent& tangent, const Breach& breach,
+                        const std::string& method, double h) {
+  if (is_singular(flow, breach.last, h))
     return fmt::format(
         "error: the equations of motion have no finite rates from t = {:g} s on: the mass matrix is singular "
         "there, or "
         "a force has no value\n",
         breach.last.t);
-  const std::string growth =
-      why.empty() && !is_thrown ? growth_limit_text(flow, breach.last, tangent, h) : std::string();
-  if (why.empty()) why = step_limit_text(flow, breach.last, tangent, method, h);
+  const bool is_stable_at_start = step_limit_text(flow, flow.start(), tangent, method, h).empty();
+  const std::string growth = is_stable_at_start ? growth_limit_text(flow, breach.last, tangent, h) : "";
+  const std::string limit = step_limit_text(flow, tangent, breach, method, h);
   const std::string verdict =
       !growth.empty() ? growth
-      : why.empty()   ? std::string(is_thrown ? "is too long; take a shorter one" : "may be too long")
-                      : fmt::format("is too long: {}; take a shorter one or --method rodas4{}", why,
-                                  is_thrown || flow.table().constraint_count == 0
-                                        ? ""
-                                        : "; or the loops cannot be closed from there on");
-  const std::string where =
-      is_thrown ? breach.what
-                : fmt::format("the run leaves all bounds at t = {:g} s: {}", breach.end.t, breach.what);
-  return fmt::format("error: {}\n  a step of {:g} s {}\n", where, h, verdict);
+      : limit.empty()
+          ? "may be too long"
+          : fmt::format(
+                "is too long: {}; take a shorter one or --method rodas4{}", limit,
+                flow.table().constraint_count == 0 ? "" : "; or the loops cannot be closed from there on");
+  return fmt::format("error: the run leaves all bounds at t = {:g} s: {}\n  a step of {:g} s {}\n",
+                     breach.end.t, breach.what, h, verdict);
+}
+
+}  // namespace
+
+std::string breach_text(const Flow<double>& flow, const model::Tangent& tangent, const Breach& breach,
+                        const std::string& method, double h) {
+  switch (breach.of) {
+    case Breach::Of::kLoops:
+      return fmt::format("error: {}\n", breach.what);
+    case Breach::Of::kGrowth:
+      return growth_text(flow, tangent, breach, method, h);
+    case Breach::Of::kThrown:
+      return thrown_text(flow, tangent, breach, method, h);
+    case Breach::Of::kBounds:
+      break;
+  }
+  return bounds_text(flow, tangent, breach, method, h);
 }
 
 }  // namespace jourdain::commands

@@ -45,10 +45,10 @@ struct Breach {
   enum class Of { kBounds, kLoops, kGrowth, kThrown } of = Of::kBounds;
 };
 
-/// The error message: where and how, and why. Either rates are not finite at `last` or half a step or one from
-/// there, so that the equations are singular, or the step is too long: for a mode of the linearisation at the
-/// start or at `last` that `method` cannot follow, where there is one. Modes slower than 1/2 in a step are not
-/// judged. `tangent` is displaced_tangent of the scene, `h` the step, s.
+/// The error message: where and how, and why. Where bounds are left either rates are not finite at `last` or half a
+/// step or one from there, so that the equations are singular, or the step is too long, as it is where it throws a
+/// velocity off: for a mode of the linearisation at the start or at `last` that `method` cannot follow, where there is
+/// one. Modes slower than 1/2 in a step are not judged. `tangent` is displaced_tangent of the scene, `h` the step, s.
 std::string breach_text(const studies::Flow<double>& flow, const model::Tangent& tangent,
                         const Breach& breach, const std::string& method, double h);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "studies/sensitivity.hpp"
 #include "studies/spectra.hpp"

@@ -14,8 +14,8 @@ using Access = Parameter::Access;
 
 const Expression h = name("h"), s = name("s"), i = name("i"), j = name("j"), k = name("k"), p = name("p"),
                  model = name("model"), state = name("state"), step = name("step"), stage = name("stage"),
-                 accelerations = name("accelerations"), first_coupled = name("first_coupled"),
-                 coupled = name("coupled");
+                 accelerations = name("accelerations"), first_coupled = name(kFirstCoupled),
+                 coupled = name(kCoupled);
 
 /// For each velocity those before it that W couples it with: where M or a derivative of the residual has an
 /// entry, where rotations mix columns, and what fills in when rows are eliminated from the last on.
@@ -49,7 +49,7 @@ std::vector<Table> coupling_tables(const programs::SceneFacts& scene, const ir::
       "Where in `coupled` the velocities before k that W couples with k begin; they end where those of "
       "k + 1 begin.",
       {0}},
-      entries{"coupled", "", {}};
+      entries{kCoupled, "", {}};
   for (const std::vector<std::size_t>& list : couplings(scene, derivatives)) {
     entries.entries.insert(entries.entries.end(), list.begin(), list.end());
     first.entries.push_back(entries.entries.size());

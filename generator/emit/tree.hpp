@@ -213,7 +213,8 @@ struct Struct {
 };
 
 /// The names of all tables.
-inline constexpr std::array<const char*, 2> kTables{"coupled", "first_coupled"};
+inline constexpr const char *kCoupled = "coupled", *kFirstCoupled = "first_coupled";
+inline constexpr std::array<const char*, 2> kTables{kCoupled, kFirstCoupled};
 
 /// Integers that are known when the model is emitted. C++ has functions of them, which device code may call.
 struct Table {

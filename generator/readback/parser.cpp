@@ -152,8 +152,7 @@ class FileParser : public StatementParser {
       constant(is_inline);
       return;
     }
-    if (is_function && is_inline && is_word("int") && !function.is_template && !function.has_stages)
-      return table();
+    if (is_inline && is_word("int") && !function.is_template && !function.has_stages) return table();
     function.is_inline = is_inline;
     if (is_constructor_outside()) {
       constructor_outside(function);

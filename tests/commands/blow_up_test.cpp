@@ -143,7 +143,7 @@ TEST(ThrownOff, IsAnError) {
   EXPECT_EQ(simulate_model("block_on_slope", "linearly_implicit_euler", "0.001").status, 0);
 }
 
-constexpr const char* kSecond =
+constexpr const char* kSecondSlide =
     "[[body]]\nname = \"b\"\nmass = 1\n[[joint]]\nname = \"y\"\ntype = \"prismatic\"\nparent = \"world\"\n"
     "child = \"b\"\naxis = [1, 0, 0]\n";
 
@@ -172,7 +172,7 @@ TEST(ThrownOff, IsNotSeenWhereForcesBegin) {
 /// nothing yet.
 TEST(ThrownOff, IsNotSeenWhereOthersAreFast) {
   const std::string impact = pushed_slide("1", "-0.01099", "initial_velocity = 1\n", "-1e6*max(x - y, 0)") +
-                             kSecond + "[[force]]\njoint = \"y\"\nvalue = \"1e6*max(x - y, 0)\"\n";
+                             kSecondSlide + "[[force]]\njoint = \"y\"\nvalue = \"1e6*max(x - y, 0)\"\n";
   for (const char* method : {"heun", "rk4", "rk5", "rodas4"}) {
     const support::ProcessResult result = PushedScene(impact).simulate(method, "0.001", "0.1");
     EXPECT_EQ(result.status, 0) << method << result.output;
