@@ -90,8 +90,8 @@ std::string growth_text(const studies::StabilityFunction& function, const Eigen:
 }
 
 /// A clause on what steps of length `h` cannot follow at `point`; empty where there is nothing.
-std::string step_limit_text(const Flow<double>& flow, const Point<double>& point,
-                            const model::Tangent& tangent, const std::string& method, double h) {
+std::string limit_text(const Flow<double>& flow, const Point<double>& point, const model::Tangent& tangent,
+                       const std::string& method, double h) {
   const studies::StabilityFunction* function = studies::stability_function(method);
   if (!function || flow.table().velocity_count == 0) return "";
   const Eigen::MatrixXd A = studies::linearisation(flow, point, tangent);
@@ -109,7 +109,8 @@ std::string step_limit_text(const Flow<double>& flow, const Point<double>& point
     const double longest = undamped && !studies::keeps_oscillations(*function)
                                ? 0
                                : studies::step_limit(*function, mu, {std::max(0.0, mu.real())});
-    if (longest >= limit) continue;
+    const bool grows_anyway = longest == 0 && mu.real() > 0;
+    if (longest >= limit || grows_anyway) continue;
     limit = longest;
     worst = mu;
   }
@@ -154,29 +155,14 @@ bool is_singular(const Flow<double>& flow, const Point<double>& point, double h)
   return false;
 }
 
-/// step_limit_text at the start, or else at the last point within bounds.
-std::string step_limit_text(const Flow<double>& flow, const model::Tangent& tangent, const Breach& breach,
-                            const std::string& method, double h) {
-  const std::string limit = step_limit_text(flow, flow.start(), tangent, method, h);
-  return limit.empty() ? step_limit_text(flow, breach.last, tangent, method, h) : limit;
-}
-
 std::string growth_text(const Flow<double>& flow, const model::Tangent& tangent, const Breach& breach,
                         const std::string& method, double h) {
-  const std::string limit = step_limit_text(flow, flow.start(), tangent, method, h);
+  const std::string limit = limit_text(flow, flow.start(), tangent, method, h);
   return limit.empty() ? fmt::format("error: {}\n", breach.what)
                        : fmt::format(
                              "error: a step of {:g} s is too long: {}; take a shorter one or --method "
                              "rodas4\n",
                              h, limit);
-}
-
-std::string thrown_text(const Flow<double>& flow, const model::Tangent& tangent, const Breach& breach,
-                        const std::string& method, double h) {
-  const std::string limit = step_limit_text(flow, tangent, breach, method, h);
-  return fmt::format("error: {}\n  a step of {:g} s is too long{}\n", breach.what, h,
-                     limit.empty() ? "; take a shorter one"
-                                   : fmt::format(": {}; take a shorter one or --method rodas4", limit));
 }
 
 std::string bounds_text(const Flow<double>& flow, const model::Tangent& tangent, const Breach& breach,
@@ -187,9 +173,9 @@ std::string bounds_text(const Flow<double>& flow, const model::Tangent& tangent,
         "there, or "
         "a force has no value\n",
         breach.last.t);
-  const bool is_stable_at_start = step_limit_text(flow, flow.start(), tangent, method, h).empty();
+  const bool is_stable_at_start = limit_text(flow, flow.start(), tangent, method, h).empty();
   const std::string growth = is_stable_at_start ? growth_limit_text(flow, breach.last, tangent, h) : "";
-  const std::string limit = step_limit_text(flow, tangent, breach, method, h);
+  const std::string limit = step_limit_text(flow, tangent, breach.last, method, h);
   const std::string verdict =
       !growth.empty() ? growth
       : limit.empty()
@@ -210,12 +196,16 @@ std::string breach_text(const Flow<double>& flow, const model::Tangent& tangent,
       return fmt::format("error: {}\n", breach.what);
     case Breach::Of::kGrowth:
       return growth_text(flow, tangent, breach, method, h);
-    case Breach::Of::kThrown:
-      return thrown_text(flow, tangent, breach, method, h);
     case Breach::Of::kBounds:
       break;
   }
   return bounds_text(flow, tangent, breach, method, h);
+}
+
+std::string step_limit_text(const Flow<double>& flow, const model::Tangent& tangent,
+                            const Point<double>& point, const std::string& method, double h) {
+  const std::string limit = limit_text(flow, flow.start(), tangent, method, h);
+  return limit.empty() ? limit_text(flow, point, tangent, method, h) : limit;
 }
 
 }  // namespace jourdain::commands

@@ -40,16 +40,21 @@ class RunBounds {
 /// Where a run left its bounds.
 struct Breach {
   studies::Point<double> last, end;  ///< one step apart; within and out of bounds
-  std::string what;                  ///< as RunBounds::breach, LoopGuard::problem or StepGuard says
-  /// Bounds that the run leaves, loops that open, a motion that grows, or one that the step throws off.
-  enum class Of { kBounds, kLoops, kGrowth, kThrown } of = Of::kBounds;
+  std::string what;                  ///< as RunBounds::breach, LoopGuard::problem or StepGuard::problem says
+  /// Bounds that the run leaves, loops that open, a motion that grows.
+  enum class Of { kBounds, kLoops, kGrowth } of = Of::kBounds;
 };
 
 /// The error message: where and how, and why. Where bounds are left either rates are not finite at `last` or half a
-/// step or one from there, so that the equations are singular, or the step is too long, as it is where it throws a
-/// velocity off: for a mode of the linearisation at the start or at `last` that `method` cannot follow, where there is
-/// one. Modes slower than 1/2 in a step are not judged. `tangent` is displaced_tangent of the scene, `h` the step, s.
+/// step or one from there, so that the equations are singular, or the step is too long: for a mode of the linearisation
+/// at the start or at `last` that `method` cannot follow, where there is one. Modes slower than 1/2 in a step are not
+/// judged. `tangent` is displaced_tangent of the scene, `h` the step, s.
 std::string breach_text(const studies::Flow<double>& flow, const model::Tangent& tangent,
                         const Breach& breach, const std::string& method, double h);
+
+/// A clause on the modes at the start, or else at `point`, that `method` cannot follow in steps of `h`, s; empty where
+/// there is none. As for breach_text.
+std::string step_limit_text(const studies::Flow<double>& flow, const model::Tangent& tangent,
+                            const studies::Point<double>& point, const std::string& method, double h);
 
 }  // namespace jourdain::commands

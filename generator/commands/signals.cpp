@@ -101,6 +101,15 @@ std::vector<std::string> Signals::velocity_units() const {
   return units;
 }
 
+std::vector<std::string> Signals::state_units() const {
+  std::vector<std::string> units;
+  for (std::size_t i = 0; i < state_; ++i) {
+    const Signal& signal = list_[i];
+    units.push_back(signal.kind == "state" || signal.unit == "1" ? "" : signal.unit);
+  }
+  return units;
+}
+
 std::vector<double> Signals::values(const studies::Flow<double>& flow, const studies::Point<double>& point,
                                     bool outputs) const {
   const jourdain_model_table& table = flow.table();

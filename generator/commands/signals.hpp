@@ -35,6 +35,8 @@ class Signals {
   std::vector<std::size_t> positions() const;
   /// Of the entries of z; empty of states.
   std::vector<std::string> velocity_units() const;
+  /// Of the entries of y and z; empty of quaternions and states.
+  std::vector<std::string> state_units() const;
 
   /// Values at a point, in order; without the outputs where these are not wanted.
   std::vector<double> values(const studies::Flow<double>& flow, const studies::Point<double>& point,

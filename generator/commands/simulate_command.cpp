@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "commands/commands.hpp"
+#include "commands/halved_run.hpp"
 #include "commands/loop_guard.hpp"
 #include "commands/memory_checks.hpp"
 #include "commands/method_names.hpp"
@@ -39,7 +40,7 @@ using studies::Point;
 
 struct SimulateArguments {
   RunArguments run;
-  double duration = 10, step = 1e-3;
+  double duration = 10, step = 1e-3, accuracy = 0.25;
   long every = 10;
   std::string method = "rk4";
   std::vector<std::string> outputs;
@@ -51,6 +52,11 @@ double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
+const jourdain_method& method_called(const jourdain_model_table& table, const std::string& name) {
+  return *std::find_if(table.methods, table.methods + table.method_count,
+                       [&name](const jourdain_method& method) { return name == method.name; });
+}
+
 struct Trajectory {
   Point<double> end;
   std::vector<double> times;  ///< of all rows, where something is drawn
@@ -59,6 +65,7 @@ struct Trajectory {
   studies::Residuals open;                                          ///< largest, of the loops
   std::vector<double> end_rates;                                    ///< of the positions
   double stepping_time = 0;                                         ///< s of wall time spent in steps
+  std::vector<UnitChange> halved;                                   ///< what half the step changes
   std::optional<Breach> breach;                                     ///< where the run ended early
 };
 
@@ -73,12 +80,12 @@ class Simulation {
         with_outputs_(selection.has_outputs(signals)),
         table_(flow.table()),
         arguments_(arguments),
-        method_(*std::find_if(table_.methods, table_.methods + table_.method_count,
-                              [&arguments](const jourdain_method& m) { return arguments.method == m.name; })),
+        method_(method_called(table_, arguments.method)),
         bounds_(flow, flow.start(), conserves_energy),
         conserves_energy_(conserves_energy),
         guard_(guard),
-        step_guard_(flow, method_, arguments.step, signals.velocity_units()) {
+        step_guard_(flow, method_, arguments.step),
+        halved_(flow, method_, arguments.step, signals.state_units()) {
     state_.open = flow.residuals(flow.start());
     state_.first_energy = flow.energy(flow.start());
     for (const std::size_t i : selection.drawn) state_.drawn.push_back({signals.list()[i], {}});
@@ -104,10 +111,12 @@ class Simulation {
         watch_steps(before, memory_before, block);
       else
         watch(before, state_.end);
+      if (!state_.breach) halved_.follow(state_.end, block);
       row(csv);
       progress.show("simulating", static_cast<double>(done) / static_cast<double>(steps));
     }
     state_.end_rates = flow_.rates(state_.end.t, state_.end.x);
+    state_.halved = halved_.changes();
     return state_;
   }
 
@@ -132,9 +141,8 @@ class Simulation {
     if (const std::string what = trouble(point); !what.empty())
       state_.breach = {before, point, what,
                        bounds_.breach(point).empty() ? Breach::Of::kLoops : Breach::Of::kBounds};
-    else if (const StepGuard::Problem found = step_guard_.problem(before, point); !found.what.empty())
-      state_.breach = {before, point, found.what,
-                       found.is_thrown ? Breach::Of::kThrown : Breach::Of::kGrowth};
+    else if (const std::string growth = step_guard_.problem(before, point); !growth.empty())
+      state_.breach = {before, point, growth, Breach::Of::kGrowth};
     if (conserves_energy_) {
       state_.largest_drift =
           std::max(state_.largest_drift, std::fabs(flow_.energy(point) - state_.first_energy));
@@ -174,6 +182,7 @@ class Simulation {
   bool conserves_energy_ = false;
   const LoopGuard* guard_;
   StepGuard step_guard_;
+  HalvedRun halved_;
   Trajectory state_;
 };
 
@@ -204,6 +213,20 @@ std::string drift_text(const RunModel& model, const jourdain_model_table& table,
       arguments.run.real == "float" ? ", or float too coarse, as near singular positions" : "");
 }
 
+/// Of a run that half the step leads elsewhere; empty: it does not.
+std::string halving_error(const Flow<double>& flow, const CompiledModel& compiled, const Signals& signals,
+                          const Trajectory& result, const SimulateArguments& arguments, long steps) {
+  const RunSteps run = {flow, method_called(flow.table(), arguments.method), arguments.step, steps};
+  const std::optional<Unresolved> found =
+      unresolved(run, result.halved, signals.velocity_units(), arguments.accuracy);
+  if (!found) return "";
+  const std::string limit = step_limit_text(flow, programs::displaced_tangent(compiled.facts), found->point,
+                                            arguments.method, arguments.step);
+  return fmt::format(
+      "{}\n  a step of {:g} s is too long{}; take a shorter one{}, or allow more by --accuracy", found->what,
+      arguments.step, limit.empty() ? "" : ": " + limit, limit.empty() ? "" : " or --method rodas4");
+}
+
 /// Six decimals; six digits where that would be many.
 std::string coordinate_text(double value) {
   return std::fabs(value) < 1e7 ? fmt::format("{:.6f}", value) : fmt::format("{:.6g}", value);
@@ -219,6 +242,7 @@ void print_summary(const RunModel& model, const RunInputs& inputs, const Simulat
              arguments.step * 1e6 / microseconds);
   if (inputs.what.empty() && report::conserves_energy(model.loaded.mechanism))
     fmt::print("  energy {:.6g} J, drift {:.2g} J at most\n", result.first_energy, result.largest_drift);
+  if (!result.halved.empty()) fmt::print("  {}\n", halving_text(result.halved));
   if (table.correct)
     fmt::print("  loops open by {:.1g} m (rate {:.1g} m/s) at most\n", result.open.position,
                result.open.velocity);
@@ -299,16 +323,18 @@ int run(const SimulateArguments& arguments) {
   if (!picture.empty()) support::write_file(plot->file, picture);
   if (picture.empty() && !plot->file.empty())
     fmt::print(stderr, "note: no plot: no value of what it was to show is finite\n");
-  const std::string drift = drift_text(*model, loaded.table(), result, arguments, *steps);
-  if (!drift.empty()) fmt::print(stderr, "error: {}\n", drift);
+  std::string wrong = drift_text(*model, loaded.table(), result, arguments, *steps);
+  if (wrong.empty()) wrong = halving_error(flow, compiled, signals, result, arguments, *steps);
+  if (!wrong.empty()) fmt::print(stderr, "error: {}\n", wrong);
+  const int outcome = wrong.empty() ? kSuccess : kModelWrong;
   if (arguments.output == "-") {
     fmt::print("{}", csv);
-    return drift.empty() ? kSuccess : kModelWrong;
+    return outcome;
   }
   support::write_file(output, csv);
   print_summary(*model, *inputs, arguments, loaded.table(), result, *steps);
   fmt::print("  wrote {}{}\n", output, picture.empty() ? "" : ", " + plot->file);
-  return drift.empty() ? kSuccess : kModelWrong;
+  return outcome;
 }
 
 }  // namespace
@@ -323,6 +349,11 @@ void add_simulate(CLI::App& app, int& status) {
       ->capture_default_str();
   command->add_option("--step", arguments->step, "s")->check(positive_number())->capture_default_str();
   command->add_option("--method", arguments->method, "stepper")->check(check_method)->capture_default_str();
+  command
+      ->add_option("--accuracy", arguments->accuracy,
+                   "share of velocities that half the step may change without an error")
+      ->check(positive_number())
+      ->capture_default_str();
   command->add_option("--every", arguments->every, "write every so many steps")
       ->check(CLI::Range(1L, 1000000000L))
       ->capture_default_str();

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "studies/sensitivity.hpp"
 #include "studies/spectra.hpp"
@@ -20,7 +19,7 @@ constexpr double kMuch = 0.5;     // of the largest velocity that there was
 constexpr double kPushed = 0.25;  // of a velocity, by a step at the acceleration before
 constexpr double kGrowth = 0.5;   // in a step, as an exponent
 constexpr double kFarOff = 10;    // times what there was
-constexpr int kParts[] = {64, 250, 1000}, kFewParts[] = {64, 250};
+constexpr int kParts[] = {64, 250, 1000};
 constexpr long kFirst = 4;       // steps or parts, which change all there is where a motion starts from rest
 constexpr double kMissed = 0.1;  // of a change
 /// Growth itself grows so many times in a step, and is so fast after it, where a motion ends within the step or soon
@@ -31,9 +30,8 @@ constexpr double kRounding = 1e-9;
 
 }  // namespace
 
-StepGuard::StepGuard(const Flow<double>& flow, const jourdain_method& method, double h,
-                     std::vector<std::string> units)
-    : flow_(flow), method_(method), h_(h), units_(std::move(units)) {
+StepGuard::StepGuard(const Flow<double>& flow, const jourdain_method& method, double h)
+    : flow_(flow), method_(method), h_(h) {
   fastest_.resize(flow.size() - flow.position_count());
   remember(flow.start().x.data() + flow.position_count());
 }
@@ -86,20 +84,16 @@ double StepGuard::fastest_mode(const Point<double>& point) const {
   return J.allFinite() ? studies::spectrum(J).values.real().maxCoeff() : 0;
 }
 
-/// So many steps, each in `parts`; where one of these changes one of the velocities by more than half of the largest
+/// A step in `parts`; where one of these changes one of the velocities by more than half of the largest
 /// that there was by then, `jumped` is the first of them.
 StepGuard::Path StepGuard::in_parts(const Point<double>& before, int parts,
-                                    const std::vector<Growth>& growing, int steps) const {
-  Path path = {before, std::vector<double>(fastest_.size()), nullptr};
+                                    const std::vector<Growth>& growing) const {
+  Path path = {before, nullptr};
   studies::Memory memory = flow_.fresh_memory(method_);
   std::vector<double> fastest = fastest_;
-  for (long part = 0; part < long{steps} * parts && !path.jumped; ++part) {
+  for (long part = 0; part < parts && !path.jumped; ++part) {
     const std::vector<double> last = path.end.x;
     flow_.step(method_, path.end, h_ / parts, 1, memory);
-    for (std::size_t k = 0; k < fastest_.size(); ++k) {
-      const std::size_t entry = flow_.position_count() + k;
-      path.changes[k] = std::max(path.changes[k], std::fabs(path.end.x[entry] - before.x[entry]));
-    }
     for (const Growth& growth : growing) {
       const std::size_t k = flow_.position_count() + growth.velocity;
       double& most = fastest[growth.velocity];
@@ -129,43 +123,6 @@ const StepGuard::Growth* StepGuard::lost(const Point<double>& before, const Poin
   return nullptr;
 }
 
-/// The largest of some values of the velocities of a unit.
-StepGuard::Largest StepGuard::largest(const std::string& unit, const std::vector<double>& values) const {
-  Largest found;
-  for (std::size_t k = 0; k < values.size(); ++k)
-    if (units_[k] == unit && values[k] > found.value) found = {values[k], k};
-  return found;
-}
-
-/// What the step throws off; empty: nothing.
-std::string StepGuard::thrown_off(const Point<double>& before, const Point<double>& after) const {
-  std::vector<double> changes;
-  for (std::size_t i = flow_.position_count(); i < before.x.size(); ++i)
-    changes.push_back(std::fabs(after.x[i] - before.x[i]));
-  double size = 1;
-  for (const double entry : before.x) size = std::max(size, std::fabs(entry));
-  for (const char* unit : {"m/s", "rad/s"}) {
-    const Largest change = largest(unit, changes);
-    if (!(change.value * h_ > rounding() * size) || !(change.value > largest(unit, fastest_).value)) continue;
-    double followed = 0;
-    const auto is_thrown = [&](int parts) {
-      const Path path = in_parts(before, parts, {}, 2);
-      followed = largest(unit, path.changes).value;
-      return change.value > kFarOff * followed &&
-             std::all_of(path.end.x.begin(), path.end.x.end(),
-                         [](double entry) { return std::isfinite(entry); });
-    };
-    if (std::all_of(std::begin(kFewParts), std::end(kFewParts), is_thrown))
-      return fmt::format(
-          "the step from t = {:g} s on throws '{}' off: it changes by {:.2g} {}, nothing by more than {:.2g} "
-          "{} in {} "
-          "shorter ones and as many after them",
-          before.t, flow_.table().velocity_names[change.velocity], change.value, unit, followed, unit,
-          kFewParts[1]);
-  }
-  return "";
-}
-
 /// What grows faster than the step follows; empty: nothing.
 std::string StepGuard::outgrown(const Point<double>& before, const Point<double>& after) const {
   const std::size_t first = flow_.position_count();
@@ -180,10 +137,8 @@ std::string StepGuard::outgrown(const Point<double>& before, const Point<double>
       before.t, h_, flow_.table().velocity_names[growth->velocity], 1 / growth->rate);
 }
 
-StepGuard::Problem StepGuard::problem(const Point<double>& before, const Point<double>& after) {
-  ++steps_;
-  Problem found = {thrown_off(before, after), true};
-  if (found.what.empty() && steps_ > kFirst) found = {outgrown(before, after), false};
+std::string StepGuard::problem(const Point<double>& before, const Point<double>& after) {
+  const std::string found = ++steps_ > kFirst ? outgrown(before, after) : "";
   remember(after.x.data() + flow_.position_count());
   return found;
 }

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "commands/pushed_scene.hpp"
 #include "commands/run_jourdain.hpp"
-#include "support/files.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -15,33 +15,6 @@ namespace jourdain::tests {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A body of `mass` (kg) on a slide from `at` (m), with more keys of the joint, and a force on it.
-std::string pushed_slide(const std::string& mass, const std::string& at, const std::string& keys,
-                         const std::string& force) {
-  return "[model]\nname = \"pushed\"\ngravity = [0, 0, 0]\n[[body]]\nname = \"a\"\nmass = " + mass +
-         "\n[[joint]]\nname = \"x\"\ntype = \"prismatic\"\nparent = \"world\"\nchild = \"a\"\naxis = [1, 0, "
-         "0]\n"
-         "initial_position = " +
-         at + "\n" + keys + "[[force]]\njoint = \"x\"\nvalue = \"" + force + "\"\n";
-}
-
-class PushedScene {
- public:
-  explicit PushedScene(const std::string& scene) {
-    support::write_file(folder_.path() + "/scene.toml", scene);
-  }
-
-  support::ProcessResult simulate(const std::string& method, const std::string& step,
-                                  const std::string& duration) const {
-    return jourdain({"simulate", folder_.path() + "/scene.toml", "--method", method, "--step", step,
-                     "--duration", duration, "--output", csv()});
-  }
-  std::string csv() const { return folder_.path() + "/x.csv"; }
-
- private:
-  support::TemporaryFolder folder_;
-};
 
 /// x'' = exp(x) from x = 1 at rest: x goes to infinity at t = pi/sqrt(2 e) = 1.3474 s.
 TEST(BlowUp, IsNotSteppedAcross) {
@@ -127,80 +100,11 @@ TEST(BlowUp, IsNotSeenWhereSomethingSlips) {
   EXPECT_EQ(flipped.status, 0) << flipped.output;
 }
 
-/// Bristles that a step stretches too far hurl the block away, which flies on as if nothing were wrong.
-TEST(ThrownOff, IsAnError) {
-  for (const auto& [model, method, step, velocity] :
-       {std::array{"block_on_slope", "linearly_implicit_euler", "0.01", "root_v"},
-        std::array{"block_on_slope", "linearly_implicit_euler", "0.02", "root_v"},
-        std::array{"contact_wheel", "rk4", "0.05", "suspension"},
-        std::array{"quarter_car", "rk4", "0.05", "spin"}}) {
-    const support::ProcessResult result = simulate_model(model, method, step);
-    EXPECT_EQ(result.status, 1) << model << step;
-    EXPECT_NE(result.output.find(std::string("throws '") + velocity), std::string::npos)
-        << model << step << result.output;
-    EXPECT_NE(result.output.find("is too long"), std::string::npos) << result.output;
-  }
-  EXPECT_EQ(simulate_model("block_on_slope", "linearly_implicit_euler", "0.001").status, 0);
-}
-
-constexpr const char* kSecondSlide =
-    "[[body]]\nname = \"b\"\nmass = 1\n[[joint]]\nname = \"y\"\ntype = \"prismatic\"\nparent = \"world\"\n"
-    "child = \"b\"\naxis = [1, 0, 0]\n";
-
-/// A spring that is let go far from rest relaxes within the first step, at the velocity that this takes.
-TEST(ThrownOff, IsNotSeenWhereStiffMotionsBegin) {
-  for (const char* keys : {"stiffness = 1e6\ndamping = 1e4\n", "stiffness = 1e8\ndamping = 1\n"})
-    for (const char* method : {"linearly_implicit_euler", "rodas4"}) {
-      const support::ProcessResult result =
-          PushedScene(pushed_slide("1", "0.1", keys, "0")).simulate(method, "0.01", "2");
-      EXPECT_EQ(result.status, 0) << keys << method << result.output;
-    }
-}
-
-/// A force that begins where a step ends is in that step for some methods, in the next one for shorter steps.
-TEST(ThrownOff, IsNotSeenWhereForcesBegin) {
-  for (const char* force : {"if(t < 1, 0, 1e3)", "if(t < 0.9999, 0, 1e3)"})
-    for (const char* method : {"heun", "rk4", "rk5", "ros34pw2", "rodas4", "linearly_implicit_euler"})
-      for (const char* step : {"0.001", "0.01"}) {
-        const PushedScene run(pushed_slide("1", "0.1", "damping = 1\n", force));
-        const support::ProcessResult result = run.simulate(method, step, "2");
-        EXPECT_EQ(result.status, 0) << force << method << step << result.output;
-      }
-}
-
-/// One body meets another in the last hundredth of a step, and a locomotive draws wagons of which the last ones move by
-/// nothing yet.
-TEST(ThrownOff, IsNotSeenWhereOthersAreFast) {
-  const std::string impact = pushed_slide("1", "-0.01099", "initial_velocity = 1\n", "-1e6*max(x - y, 0)") +
-                             kSecondSlide + "[[force]]\njoint = \"y\"\nvalue = \"1e6*max(x - y, 0)\"\n";
-  for (const char* method : {"heun", "rk4", "rk5", "rodas4"}) {
-    const support::ProcessResult result = PushedScene(impact).simulate(method, "0.001", "0.1");
-    EXPECT_EQ(result.status, 0) << method << result.output;
-  }
-  std::string train =
-      "[model]\nname = \"train\"\ngravity = [0, 0, 0]\n[[repeat]]\ncount = 8\n[[repeat.body]]\n"
-      "name = \"w{i}\"\nmass = 8e4\n[[repeat.joint]]\nname = \"x{i}\"\ntype = \"prismatic\"\n"
-      "parent = \"world\"\nchild = \"w{i}\"\naxis = [1, 0, 0]\n[[repeat]]\ncount = 7\n"
-      "[[repeat.force]]\njoint = \"x{i}\"\nvalue = \"1e7*(x{i+1} - x{i}) + 2e5*(x{i+1}.rate - x{i}.rate)\"\n"
-      "[[repeat.force]]\njoint = \"x{i+1}\"\nvalue = \"1e7*(x{i} - x{i+1}) + 2e5*(x{i}.rate - "
-      "x{i+1}.rate)\"\n"
-      "[[force]]\njoint = \"x1\"\nvalue = 2e5\n";
-  for (const char* step : {"0.02", "0.2"}) {
-    const support::ProcessResult result = PushedScene(train).simulate("linearly_implicit_euler", step, "2");
-    EXPECT_EQ(result.status, 0) << step << result.output;
-  }
-}
-
-/// By symmetry a velocity stays rounding, which a long step may make a thousand times as much.
-TEST(ThrownOff, IsNotSeenInRounding) {
-  EXPECT_EQ(simulate_model("standing_quadruped", "linearly_implicit_euler", "0.05").status, 0);
-}
-
 /// What is stiff, or starts, changes much in a step, too.
 TEST(BlowUp, IsNotSeenInStiffMotions) {
   for (const auto& [model, method, step] :
        {std::array{"elastic_arm", "rodas4", "0.01"}, std::array{"flyball_governor", "rodas4", "0.02"},
-        std::array{"contact_wheel", "linearly_implicit_euler", "0.02"}}) {
+        std::array{"contact_wheel", "linearly_implicit_euler", "0.002"}}) {
     const support::ProcessResult result = simulate_model(model, method, step);
     EXPECT_EQ(result.status, 0) << model << result.output;
   }
