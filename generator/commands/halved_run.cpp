@@ -111,30 +111,39 @@ void HalvedRun::follow(const Point<double>& point, long steps) {
   }
 }
 
-std::optional<Unresolved> unresolved(const RunSteps& run, const std::vector<UnitChange>& changes,
-                                     const std::vector<std::string>& velocities, double accuracy) {
+namespace {
+
+/// Whether half the step leads elsewhere, as judge_halving has it.
+bool is_much(const RunSteps& run, const UnitChange& change, double accuracy) {
+  if (!std::isfinite(change.share())) return true;
   const double nothing = std::max(kNothing, kRoundings * run.flow.table().unit_roundoff);
+  const double duration = run.h * static_cast<double>(run.count);
+  const double energies = std::max(change.energies, static_cast<double>(change.times) * change.released);
+  return change.share() > accuracy && change.energy > kLittle * energies &&
+         change.largest * duration > nothing * size_of(run.flow.start());
+}
+
+}  // namespace
+
+HalvingVerdict judge_halving(const RunSteps& run, const std::vector<UnitChange>& changes,
+                             const std::vector<std::string>& velocities, double accuracy) {
+  HalvingVerdict verdict;
   for (const UnitChange& change : changes) {
     if (std::find(velocities.begin(), velocities.end(), change.unit) == velocities.end()) continue;
-    if (!(change.share() > accuracy)) continue;
-    if (std::isfinite(change.share()) &&
-        !(change.energy >
-          kLittle * std::max(change.energies, static_cast<double>(change.times) * change.released)))
-      continue;
-    const double duration = run.h * static_cast<double>(run.count);
-    if (!(change.largest * duration > nothing * size_of(run.flow.start()))) continue;
+    if (!is_much(run, change, accuracy)) continue;
+    verdict.leads_elsewhere = true;
     const double usual = std::sqrt(change.size / static_cast<double>(change.times));
     const LocalErrors errors = local_errors(run, velocities, change.unit);
     if (std::isfinite(change.share()) && !(errors.sum > accuracy * usual)) continue;
-    return Unresolved{
-        fmt::format("this is not the motion: half the step changes velocities in {} by {:.2g} of what they "
-                    "are (allowed: "
-                    "{:g}); the step from t = {:g} s on changes '{}' by {:.2g} {} that two halves do not",
-                    change.unit, change.share(), accuracy, errors.point.t,
-                    run.flow.table().velocity_names[errors.velocity], errors.largest, change.unit),
-        errors.point};
+    verdict.wrong = fmt::format(
+        "this is not the motion: half the step changes velocities in {} by {:.2g} of what they are (allowed: "
+        "{:g}); the step from t = {:g} s on changes '{}' by {:.2g} {} that two halves do not",
+        change.unit, change.share(), accuracy, errors.point.t,
+        run.flow.table().velocity_names[errors.velocity], errors.largest, change.unit);
+    verdict.point = errors.point;
+    return verdict;
   }
-  return std::nullopt;
+  return verdict;
 }
 
 std::string halving_text(const std::vector<UnitChange>& changes) {

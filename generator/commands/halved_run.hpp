@@ -1,7 +1,6 @@
 // What half the step changes: an estimate of a run's error, by a second run next to it.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -57,20 +56,21 @@ struct RunSteps {
   long count = 0;
 };
 
-/// A run that is not the motion.
-struct Unresolved {
-  std::string what;              ///< a sentence
-  studies::Point<double> point;  ///< where the step that errs most begins
+/// What half the step tells of a run.
+struct HalvingVerdict {
+  bool leads_elsewhere = false;  ///< half the step does
+  std::string wrong;  ///< a sentence: why this is not the motion; empty: only the motion is sensitive
+  studies::Point<double> point;  ///< where the step that errs most begins, if something is wrong
 };
 
-/// Half the step changes the velocities of a unit by more than `accuracy` of what they are (root mean squares over
-/// time), and so do the steps one by one, each against two of half the length from where it begins, if what they change
-/// is added up. The first alone is how a motion is sensitive, or how methods lose what is damped; the second how
-/// errors die out. Changes that move nothing by more than rounding are none, nor are those that matter little in all
-/// that moves, by kinetic energy, or to what relaxes: stiff motions, which implicit methods may leave unresolved.
-/// `velocities` are the units of z, empty for those that are not looked at.
-std::optional<Unresolved> unresolved(const RunSteps& run, const std::vector<UnitChange>& changes,
-                                     const std::vector<std::string>& velocities, double accuracy);
+/// Half the step leads elsewhere where it changes the velocities of a unit by more than `accuracy` of what they are
+/// (root mean squares over time). Then the run is wrong where the steps one by one, each against two of half the length
+/// from where it begins, change them by as much, if that is added up. Otherwise small differences grow. Changes that
+/// move nothing by more than rounding are none, nor are those that matter little in all that moves, by kinetic energy,
+/// or to what relaxes: stiff motions, which implicit methods may leave unresolved. `velocities` are the units of z,
+/// empty for those that are not looked at.
+HalvingVerdict judge_halving(const RunSteps& run, const std::vector<UnitChange>& changes,
+                             const std::vector<std::string>& velocities, double accuracy);
 
 /// "half the step moves it by at most 2e-09 rad, 3e-08 rad/s".
 std::string halving_text(const std::vector<UnitChange>& changes);

@@ -213,18 +213,15 @@ std::string drift_text(const RunModel& model, const jourdain_model_table& table,
       arguments.run.real == "float" ? ", or float too coarse, as near singular positions" : "");
 }
 
-/// Of a run that half the step leads elsewhere; empty: it does not.
-std::string halving_error(const Flow<double>& flow, const CompiledModel& compiled, const Signals& signals,
-                          const Trajectory& result, const SimulateArguments& arguments, long steps) {
-  const RunSteps run = {flow, method_called(flow.table(), arguments.method), arguments.step, steps};
-  const std::optional<Unresolved> found =
-      unresolved(run, result.halved, signals.velocity_units(), arguments.accuracy);
-  if (!found) return "";
-  const std::string limit = step_limit_text(flow, programs::displaced_tangent(compiled.facts), found->point,
+/// Of a run that is not the motion, as half the step tells.
+std::string halving_error(const Flow<double>& flow, const CompiledModel& compiled,
+                          const HalvingVerdict& verdict, const SimulateArguments& arguments) {
+  const std::string limit = step_limit_text(flow, programs::displaced_tangent(compiled.facts), verdict.point,
                                             arguments.method, arguments.step);
   return fmt::format(
-      "{}\n  a step of {:g} s is too long{}; take a shorter one{}, or allow more by --accuracy", found->what,
-      arguments.step, limit.empty() ? "" : ": " + limit, limit.empty() ? "" : " or --method rodas4");
+      "{}\n  a step of {:g} s is too long{}; take a shorter one{}, or allow more by --accuracy",
+      verdict.wrong, arguments.step, limit.empty() ? "" : ": " + limit,
+      limit.empty() ? "" : " or --method rodas4");
 }
 
 /// Six decimals; six digits where that would be many.
@@ -233,7 +230,8 @@ std::string coordinate_text(double value) {
 }
 
 void print_summary(const RunModel& model, const RunInputs& inputs, const SimulateArguments& arguments,
-                   const jourdain_model_table& table, const Trajectory& result, long steps) {
+                   const jourdain_model_table& table, const Trajectory& result, bool is_sensitive,
+                   long steps) {
   const double microseconds = result.stepping_time / static_cast<double>(steps) * 1e6;
   const std::string driven = inputs.what.empty() ? "" : ", " + inputs.what;
   fmt::print("{}: {} steps of {:g} s with {} in {}{}\n", model.loaded.mechanism.name, steps, arguments.step,
@@ -242,7 +240,9 @@ void print_summary(const RunModel& model, const RunInputs& inputs, const Simulat
              arguments.step * 1e6 / microseconds);
   if (inputs.what.empty() && report::conserves_energy(model.loaded.mechanism))
     fmt::print("  energy {:.6g} J, drift {:.2g} J at most\n", result.first_energy, result.largest_drift);
-  if (!result.halved.empty()) fmt::print("  {}\n", halving_text(result.halved));
+  if (!result.halved.empty())
+    fmt::print("  {}{}\n", halving_text(result.halved),
+               is_sensitive ? ": small differences grow, the end depends on them" : "");
   if (table.correct)
     fmt::print("  loops open by {:.1g} m (rate {:.1g} m/s) at most\n", result.open.position,
                result.open.velocity);
@@ -324,7 +324,10 @@ int run(const SimulateArguments& arguments) {
   if (picture.empty() && !plot->file.empty())
     fmt::print(stderr, "note: no plot: no value of what it was to show is finite\n");
   std::string wrong = drift_text(*model, loaded.table(), result, arguments, *steps);
-  if (wrong.empty()) wrong = halving_error(flow, compiled, signals, result, arguments, *steps);
+  const HalvingVerdict halving =
+      judge_halving({flow, method_called(loaded.table(), arguments.method), arguments.step, *steps},
+                    result.halved, signals.velocity_units(), arguments.accuracy);
+  if (wrong.empty() && !halving.wrong.empty()) wrong = halving_error(flow, compiled, halving, arguments);
   if (!wrong.empty()) fmt::print(stderr, "error: {}\n", wrong);
   const int outcome = wrong.empty() ? kSuccess : kModelWrong;
   if (arguments.output == "-") {
@@ -332,7 +335,8 @@ int run(const SimulateArguments& arguments) {
     return outcome;
   }
   support::write_file(output, csv);
-  print_summary(*model, *inputs, arguments, loaded.table(), result, *steps);
+  print_summary(*model, *inputs, arguments, loaded.table(), result,
+                halving.leads_elsewhere && halving.wrong.empty(), *steps);
   fmt::print("  wrote {}{}\n", output, picture.empty() ? "" : ", " + plot->file);
   return outcome;
 }

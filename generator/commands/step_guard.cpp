@@ -138,7 +138,7 @@ std::string StepGuard::outgrown(const Point<double>& before, const Point<double>
 }
 
 std::string StepGuard::problem(const Point<double>& before, const Point<double>& after) {
-  const std::string found = ++steps_ > kFirst ? outgrown(before, after) : "";
+  std::string found = ++steps_ > kFirst ? outgrown(before, after) : "";
   remember(after.x.data() + flow_.position_count());
   return found;
 }

@@ -17,6 +17,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* kSays = "this is not the motion: half the step changes velocities in ";
 
+constexpr const char* kGrows = "small differences grow, the end depends on them";
+
 support::ProcessResult simulate(const std::string& model, const std::string& method, const std::string& step,
                                 const std::vector<std::string>& more = {}) {
   const support::TemporaryFolder folder;
@@ -66,9 +68,7 @@ TEST(HalvedRun, AllowsWhatIsAskedFor) {
 TEST(HalvedRun, LetsSensitiveMotionsBe) {
   const support::ProcessResult result = simulate("panda", "rk4", "0.001", {"--duration", "5"});
   EXPECT_EQ(result.status, 0) << result.output;
-  const std::size_t at = result.output.find("half the step moves it by at most ");
-  ASSERT_NE(at, std::string::npos) << result.output;
-  EXPECT_GT(std::stod(result.output.substr(at + 34)), 0.1) << result.output;
+  EXPECT_NE(result.output.find(kGrows), std::string::npos) << result.output;
 }
 
 /// An error that is known: x'' = -x by linearly implicit Euler, which shrinks amplitudes by exp(-h t/2) for
