@@ -115,7 +115,7 @@ namespace {
 
 /// Whether half the step leads elsewhere, as judge_halving has it.
 bool is_much(const RunSteps& run, const UnitChange& change, double accuracy) {
-  if (!std::isfinite(change.share())) return true;
+  if (!std::isfinite(change.square)) return true;
   const double nothing = std::max(kNothing, kRoundings * run.flow.table().unit_roundoff);
   const double duration = run.h * static_cast<double>(run.count);
   const double energies = std::max(change.energies, static_cast<double>(change.times) * change.released);
@@ -134,7 +134,7 @@ HalvingVerdict judge_halving(const RunSteps& run, const std::vector<UnitChange>&
     verdict.leads_elsewhere = true;
     const double usual = std::sqrt(change.size / static_cast<double>(change.times));
     const LocalErrors errors = local_errors(run, velocities, change.unit);
-    if (std::isfinite(change.share()) && !(errors.sum > accuracy * usual)) continue;
+    if (std::isfinite(change.square) && !(errors.sum > accuracy * usual)) continue;
     verdict.wrong = fmt::format(
         "this is not the motion: half the step changes velocities in {} by {:.2g} of what they are (allowed: "
         "{:g}); the step from t = {:g} s on changes '{}' by {:.2g} {} that two halves do not",

@@ -198,8 +198,10 @@ double simulation_error(const std::string& model, const Claim& claim,
     ++rows;
   }
   EXPECT_GE(double(rows), 2 / h - 1);
-  // A run that loses a tenth of its energy fails, and is off by a twentieth of its size at least.
-  const bool is_lost = run.output.find("the energy, which nothing changes, drifted") != std::string::npos;
+  // A run that loses a tenth of its energy fails, as one that half the step changes by a quarter, and is off by a
+  // twentieth of its size at least.
+  const bool is_lost = run.output.find("the energy, which nothing changes, drifted") != std::string::npos ||
+                       run.output.find("this is not the motion") != std::string::npos;
   EXPECT_EQ(run.status, is_lost ? 1 : 0) << run.output;
   EXPECT_TRUE(!is_lost || largest > 0.05 * size) << largest;
   return largest;
