@@ -9,6 +9,11 @@
 
 namespace jourdain::commands {
 
+/// Of ensembles.
+inline constexpr const char* kTurnedSinesHelp =
+    "the stages of a step turn the sines of its first by what angles have changed: less time, other last "
+    "digits";
+
 inline constexpr const char* kLibmHelp =
     "sines, cosines and arctangents of the C library, instead of sums and products of one cost up to "
     "2^30 rad (float: any)";

@@ -102,6 +102,11 @@ int run(EnsembleArguments arguments) {
     fmt::print(stderr, "error: {}\n", uneven);
     return kUsage;
   }
+  if (const std::string& method = arguments.choices.method;
+      arguments.choices.turns_sines && programs::find_stepper(method)->evaluations == 1) {
+    fmt::print(stderr, "error: --turned-sines: {} has one stage, whose sines are computed\n", method);
+    return kUsage;
+  }
   CompileOptions& options = model->loaded.options;
   options.functions = loadable_functions({arguments.choices.method});
   options.choices.packs = true;
@@ -201,6 +206,7 @@ void add_ensemble(CLI::App& app, int& status) {
   command->add_option("--method", arguments->choices.method, "stepper")
       ->check(CLI::IsMember({"rk4", "rk5", "heun", "euler", "semi_implicit_euler"}))
       ->capture_default_str();
+  command->add_flag("--turned-sines", arguments->choices.turns_sines, kTurnedSinesHelp);
   command->add_option("--threads", arguments->choices.threads, "0: as many as the machine runs at once")
       ->check(CLI::Range(0, 4096))
       ->capture_default_str();

@@ -19,7 +19,7 @@ struct EnsembleFacts {
   std::string generator, compiler;           ///< "Jourdain 0.1.0"; first line of the compiler's --version
   std::string program_sha256;                ///< of all that was compiled
   std::string model, source, source_sha256;  ///< name; file, without folders
-  std::string method, real;                  ///< stepper, number type
+  std::string method, real;                  ///< "rk4" or "rk4 with turned sines"; number type
   double step = 0;                           ///< s
   std::uint64_t steps = 0, seed = 0, states = 0;  ///< states: of the whole
   double accuracy = 0;                            ///< what half the step may move ends by, in deviations

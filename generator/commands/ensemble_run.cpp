@@ -132,13 +132,14 @@ EnsembleProgram::EnsembleProgram(const RunModel& model, const CompiledModel& com
   const bool own = !model.parameters.empty();
   std::vector<support::FileText> sources;
   for (const emit::File& file : compiled.files) sources.push_back({file.name, file.text});
-  for (const char* header : {"ensemble.hpp", "stepping.hpp", "pack.hpp", "draws.hpp"})
+  for (const char* header : {"ensemble.hpp", "stepping.hpp", "pack.hpp", "turned_sines.hpp", "draws.hpp"})
     sources.push_back({header, std::string(emit::template_text(header))});
   sources.push_back(
       {"main.cpp", emit::fill(emit::template_text("ensemble.cpp.in"),
                               {{"NAME", name},
                                {"REAL", choices.real},
                                {"METHOD", choices.method},
+                               {"SINES", choices.turns_sines ? "TurnedSines" : "ComputedSines"},
                                {"DRAWN_COUNT", fmt::format("{}", spreads.size())},
                                {"OUTPUT_COUNT", fmt::format("{}", compiled.facts.output_numbers())},
                                {"PARAMETERS", drawing.parameters},

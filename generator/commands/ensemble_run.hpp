@@ -14,6 +14,7 @@ namespace jourdain::commands {
 
 struct EnsembleChoices {
   std::string method = "rk4", real = "double";
+  bool turns_sines = false;
   std::uint64_t seed = 1;
   std::uint64_t threads = 0;   ///< 0: as many as the machine runs at once
   std::vector<double> inputs;  ///< one value each

@@ -66,7 +66,7 @@ EnsembleFacts facts_of(const RunModel& model, const CompiledModel& compiled, con
   facts.model = options.name;
   facts.source = support::shown(options.path);
   facts.source_sha256 = options.sha256;
-  facts.method = choices.method;
+  facts.method = choices.method + (choices.turns_sines ? " with turned sines" : "");
   facts.real = choices.real;
   facts.seed = choices.seed;
   for (std::size_t i = 0; i < model.parameters.size(); ++i)

@@ -34,7 +34,7 @@ struct PythonArguments {
   std::string compiler, flags = "-O2";
   std::string cpp_compiler,
       cpp_flags = "-O2 -march=native -ffp-contract=off -fno-math-errno -fno-tree-slp-vectorize";
-  bool libm = false, packs = false;
+  bool libm = false, packs = false, turns_sines = false;
 };
 
 /// All functions, every step of a cost that is easily compiled, and A, B, C, D where these are not long.
@@ -93,10 +93,10 @@ std::vector<FileText> module_files(const PythonArguments& arguments, const Loade
     all += arguments.cpp_flags;
     for (const emit::File& file : packs->files)
       if (file.name != name + ".json") sources.push_back({file.name, file.text});
-    for (const char* header :
-         {"pack.hpp", "stepping.hpp", "ensemble.hpp", "ensemble_interface.hpp", "jourdain_ensemble.h"})
+    for (const char* header : {"pack.hpp", "stepping.hpp", "turned_sines.hpp", "ensemble.hpp",
+                               "ensemble_interface.hpp", "jourdain_ensemble.h"})
       sources.push_back({header, std::string(emit::template_text(header))});
-    sources.push_back({name + "_packs.cpp", packs_text(name)});
+    sources.push_back({name + "_packs.cpp", packs_text(name, arguments.turns_sines)});
   }
   for (const FileText& source : sources) all += source.text;
   const std::string build = sha256_of(all);
@@ -178,6 +178,7 @@ void add_python(CLI::App& app, int& status) {
   CLI::Option* packs = command->add_flag("--packs", arguments->packs,
                                          "batches are stepped in vectors by euler, semi_implicit_euler, "
                                          "heun, rk4 and rk5; needs a compiler of C++17");
+  command->add_flag("--turned-sines", arguments->turns_sines, kTurnedSinesHelp)->needs(packs);
   command
       ->add_option(
           "--cxx-compiler", arguments->cpp_compiler,

@@ -59,11 +59,11 @@ std::string batch_text(const CompileOptions& options, const CompiledModel& compi
   return passage("file", holes);
 }
 
-std::string packs_text(const std::string& name) {
+std::string packs_text(const std::string& name, bool turns_sines) {
   return fmt::format(
       "#include \"{0}_kernels.hpp\"\n#include \"ensemble_interface.hpp\"\nJOURDAIN_ENSEMBLE({0}_ensemble, "
-      "{0}::Model, double)\n",
-      name);
+      "{0}::Model, double{1})\n",
+      name, turns_sines ? ", jourdain::TurnedSines" : "");
 }
 
 }  // namespace jourdain::commands

@@ -18,6 +18,6 @@ std::string batch_text(const CompileOptions& options, const CompiledModel& compi
                        const std::string& build);
 
 /// NAME_packs.cpp: the functions of ensembles, of C linkage.
-std::string packs_text(const std::string& name);
+std::string packs_text(const std::string& name, bool turns_sines);
 
 }  // namespace jourdain::commands

@@ -27,11 +27,13 @@
 
 namespace jourdain {
 
-/// States of NAME::Model in double or float. `lanes` of them are a block, whose numbers are packs.
-template <template <class> class ModelOf, class Real = double, std::size_t lanes = natural_lanes<Real>>
+/// States of NAME::Model in double or float. `lanes` of them are a block, whose numbers are packs. Sines are computed,
+/// or turned.
+template <template <class> class ModelOf, class Real = double, std::size_t lanes = natural_lanes<Real>,
+          class Sines = ComputedSines>
 class Ensemble {
  public:
-  using Number = Pack<Real, lanes>;
+  using Number = Pack<Real, lanes, Sines>;
   using Model = ModelOf<Real>;
   using BlockModel = ModelOf<Number>;
   using State = typename Model::State;

@@ -5,7 +5,8 @@
 //     #include <jourdain/ensemble_interface.hpp>
 //     JOURDAIN_ENSEMBLE(panda_ensemble, panda::Model, double)
 //
-// declared in C as `const jourdain_ensemble* panda_ensemble(void);`.
+// declared in C as `const jourdain_ensemble* panda_ensemble(void);`. A last argument `, jourdain::TurnedSines` makes
+// ensembles whose steps turn sines (turned_sines.hpp).
 #pragma once
 
 #include <algorithm>
@@ -18,12 +19,14 @@
 
 #include "ensemble.hpp"
 #include "jourdain_ensemble.h"
+#include "turned_sines.hpp"
 
-/// Defines a function of C linkage that gives the table of a model's ensembles in one type of numbers.
-#define JOURDAIN_ENSEMBLE(function, model, real)                 \
-  extern "C" const jourdain_ensemble* function();                \
-  extern "C" const jourdain_ensemble* function() {               \
-    return &::jourdain::EnsembleInterface<model, real>::table(); \
+/// Defines a function of C linkage that gives the table of a model's ensembles in one type of numbers: function, model,
+/// real, and where sines are turned, jourdain::TurnedSines.
+#define JOURDAIN_ENSEMBLE(function, model, ...)                         \
+  extern "C" const jourdain_ensemble* function();                       \
+  extern "C" const jourdain_ensemble* function() {                      \
+    return &::jourdain::EnsembleInterface<model, __VA_ARGS__>::table(); \
   }
 
 namespace jourdain {
@@ -32,8 +35,10 @@ namespace jourdain {
 // process, so that two libraries with models of one name would have those of the first.
 namespace {
 
-template <template <class> class ModelOf, class Real, std::size_t lanes = natural_lanes<Real>>
+template <template <class> class ModelOf, class Real, class Sines = ComputedSines>
 class EnsembleInterface {
+  static constexpr std::size_t lanes = natural_lanes<Real>;
+
  public:
   static const jourdain_ensemble& table() {
     static const jourdain_ensemble result = {JOURDAIN_ENSEMBLE_VERSION,
@@ -57,7 +62,7 @@ class EnsembleInterface {
   }
 
  private:
-  using Many = Ensemble<ModelOf, Real, lanes>;
+  using Many = Ensemble<ModelOf, Real, lanes, Sines>;
   using Model = typename Many::Model;
   using State = typename Many::State;
   using Input = typename Many::Input;

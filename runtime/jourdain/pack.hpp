@@ -57,8 +57,17 @@ struct VectorOf {
 
 }  // namespace detail
 
-/// `lanes` numbers, double or float; a power of two from 2 on.
-template <class Real, std::size_t lanes>
+/// Of packs whose sines are computed, each by itself.
+struct ComputedSines {
+  template <class Number>
+  JOURDAIN_PACK_FUNCTION static void take(const typename Number::Vector& x, typename Number::Vector& s,
+                                          typename Number::Vector& c) noexcept {
+    Number::compute_sines(x, s, c);
+  }
+};
+
+/// `lanes` numbers, double or float; a power of two from 2 on. `Sines`: what sine_cosine asks.
+template <class Real, std::size_t lanes, class Sines = ComputedSines>
 struct Pack {
   static_assert(std::is_same_v<Real, double> || std::is_same_v<Real, float>, "of double or float");
   static_assert(lanes >= 2 && (lanes & (lanes - 1)) == 0, "a power of two");
@@ -161,10 +170,13 @@ struct Pack {
   }
 
   friend void sine_cosine(const Pack& x, Pack& s, Pack& c) noexcept {
+    Sines::template take<Pack>(x.values, s.values, c.values);
+  }
+  JOURDAIN_PACK_FUNCTION static void compute_sines(const Vector& x, Vector& s, Vector& c) noexcept {
     if constexpr (sizeof(Real) == 8) {
-      sines_of_doubles(x.values, s.values, c.values);
+      sines_of_doubles(x, s, c);
     } else {
-      sines_of_floats(x.values, s.values, c.values);
+      sines_of_floats(x, s, c);
     }
   }
   friend Pack sin(const Pack& x) noexcept {
@@ -211,9 +223,9 @@ JOURDAIN_PACK_FUNCTION inline void turn(const I& sine_bits, const I& cosine_bits
 }  // namespace detail
 
 /// As the emitted functions do it for double and float (see there for the sources of the numbers).
-template <class Real, std::size_t lanes>
-JOURDAIN_PACK_FUNCTION inline void Pack<Real, lanes>::arctangents(const Vector& y, const Vector& x,
-                                                                  Vector& result) noexcept {
+template <class Real, std::size_t lanes, class Sines>
+JOURDAIN_PACK_FUNCTION inline void Pack<Real, lanes, Sines>::arctangents(const Vector& y, const Vector& x,
+                                                                         Vector& result) noexcept {
 #if defined(__clang__)
 #pragma clang fp reassociate(off)
 #endif
@@ -282,9 +294,10 @@ JOURDAIN_PACK_FUNCTION inline bool are_at_most(const V& x, Real limit) noexcept 
 }  // namespace detail
 
 /// Of `magnitude`, |x|, up to 2^30 as they are; by the C library where a lane is beyond.
-template <class Real, std::size_t lanes>
-JOURDAIN_PACK_FUNCTION inline void Pack<Real, lanes>::keep_in_range(const Vector& x, const Vector& magnitude,
-                                                                    Vector& s, Vector& c) noexcept {
+template <class Real, std::size_t lanes, class Sines>
+JOURDAIN_PACK_FUNCTION inline void Pack<Real, lanes, Sines>::keep_in_range(const Vector& x,
+                                                                           const Vector& magnitude, Vector& s,
+                                                                           Vector& c) noexcept {
   if (__builtin_expect(detail::are_at_most<Real, lanes>(magnitude, Real{1073741824}), 1)) return;
   const Vector angles = x;
   Vector sines = s, cosines = c;
@@ -293,9 +306,9 @@ JOURDAIN_PACK_FUNCTION inline void Pack<Real, lanes>::keep_in_range(const Vector
   c = cosines;
 }
 
-template <class Real, std::size_t lanes>
-__attribute__((noinline, cold)) void Pack<Real, lanes>::call_library(const Vector& x, Vector& s,
-                                                                     Vector& c) noexcept {
+template <class Real, std::size_t lanes, class Sines>
+__attribute__((noinline, cold)) void Pack<Real, lanes, Sines>::call_library(const Vector& x, Vector& s,
+                                                                            Vector& c) noexcept {
   for (std::size_t i = 0; i < lanes; ++i)
     if (!(std::fabs(x[i]) <= Real{1073741824})) {
       s[i] = static_cast<Real>(std::sin(static_cast<double>(x[i])));
@@ -305,9 +318,9 @@ __attribute__((noinline, cold)) void Pack<Real, lanes>::call_library(const Vecto
 
 /// Up to 2^30 as the emitted functions for double do it (see there for its sources); beyond, and for what is no number,
 /// by the C library.
-template <class Real, std::size_t lanes>
-JOURDAIN_PACK_FUNCTION inline void Pack<Real, lanes>::sines_of_doubles(const Vector& x, Vector& s,
-                                                                       Vector& c) noexcept {
+template <class Real, std::size_t lanes, class Sines>
+JOURDAIN_PACK_FUNCTION inline void Pack<Real, lanes, Sines>::sines_of_doubles(const Vector& x, Vector& s,
+                                                                              Vector& c) noexcept {
 #if defined(__clang__)
 #pragma clang fp reassociate(off)
 #endif
@@ -336,9 +349,9 @@ JOURDAIN_PACK_FUNCTION inline void Pack<Real, lanes>::sines_of_doubles(const Vec
 
 /// Up to 2^30 in double, with pi/2 in parts whose products with n are exact but for the last, and with polynomials that
 /// are good to 2^-33 (Remez exchange); beyond, and for what is no number, by the C library.
-template <class Real, std::size_t lanes>
-JOURDAIN_PACK_FUNCTION inline void Pack<Real, lanes>::sines_of_floats(const Vector& x, Vector& s,
-                                                                      Vector& c) noexcept {
+template <class Real, std::size_t lanes, class Sines>
+JOURDAIN_PACK_FUNCTION inline void Pack<Real, lanes, Sines>::sines_of_floats(const Vector& x, Vector& s,
+                                                                             Vector& c) noexcept {
 #if defined(__clang__)
 #pragma clang fp reassociate(off)
 #endif

@@ -15,21 +15,34 @@
 
 namespace jourdain {
 
+/// What lives as long as a step of several stages by such numbers, made of model, state, input and the stages' number;
+/// void: nothing.
+template <class Real>
+struct StagesOf {
+  using Type = void;
+};
+
 // Steppers of emitted code, for `run` of an ensemble. They can be called where the model has theirs.
-#define JOURDAIN_STEPPER(name, function)                                                             \
+#define JOURDAIN_STEPPER(name, function, stages)                                                     \
   struct name##_stepper {                                                                            \
     template <class Model, class State, class Input, class Real>                                     \
     JOURDAIN_FUNCTION auto operator()(const Model& m, State& s, const Input& u, const Real& h) const \
         -> decltype(function(m, s, u, h)) {                                                          \
-      function(m, s, u, h);                                                                          \
+      using Stages = typename StagesOf<Real>::Type;                                                  \
+      if constexpr (std::is_void_v<Stages> || stages == 1) {                                         \
+        function(m, s, u, h);                                                                        \
+      } else {                                                                                       \
+        Stages of_step(m, s, u, stages);                                                             \
+        function(m, s, u, h);                                                                        \
+      }                                                                                              \
     }                                                                                                \
   };                                                                                                 \
   inline constexpr name##_stepper name {}
-JOURDAIN_STEPPER(euler, euler_step);
-JOURDAIN_STEPPER(semi_implicit_euler, semi_implicit_euler_step);
-JOURDAIN_STEPPER(heun, heun_step);
-JOURDAIN_STEPPER(rk4, rk4_step);
-JOURDAIN_STEPPER(rk5, rk5_step);
+JOURDAIN_STEPPER(euler, euler_step, 1);
+JOURDAIN_STEPPER(semi_implicit_euler, semi_implicit_euler_step, 1);
+JOURDAIN_STEPPER(heun, heun_step, 2);
+JOURDAIN_STEPPER(rk4, rk4_step, 4);
+JOURDAIN_STEPPER(rk5, rk5_step, 6);
 #undef JOURDAIN_STEPPER
 
 namespace detail {

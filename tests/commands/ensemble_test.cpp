@@ -122,6 +122,37 @@ TEST_F(EnsembleCommand, GivesTheSameNumbersHoweverItIsCut) {
   EXPECT_EQ(parts, whole);
 }
 
+/// Other last digits, the same ones however it is cut.
+TEST_F(EnsembleCommand, TurnsSinesWhereAsked) {
+  const std::string file = folder_.path() + "/pendulums.csv";
+  const auto ends = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"ensemble",   "models/double_pendulum.toml",
+                                      "--states",   "21",
+                                      "--spread",   "shoulder=normal(0.3)",
+                                      "--spread",   "elbow=normal(0.3)",
+                                      "--duration", "0.3",
+                                      "--step",     "0.002",
+                                      "--output",   file};
+    words.insert(words.end(), more.begin(), more.end());
+    expect(jourdain(words), 0, "wrote");
+    return support::read_file(file);
+  };
+  const std::string computed = ends({}), turned = ends({"--turned-sines"});
+  EXPECT_EQ(ends({"--turned-sines", "--threads", "3"}), turned);
+  EXPECT_TRUE(turned.ends_with(ends({"--turned-sines", "--shard", "3/3"}).substr(turned.find('\n') + 1)));
+  std::vector<Row> left = rows_of(computed), right = rows_of(turned);
+  ASSERT_EQ(left.size(), right.size());
+  double apart = 0;
+  for (std::size_t k = 0; k < left.size(); ++k)
+    for (const char* column : {"shoulder", "elbow", "shoulder_velocity", "elbow_velocity"}) {
+      ASSERT_TRUE(left[k].count(column)) << column;
+      apart = std::fmax(apart, std::fabs(left[k][column] - right[k][column]));
+    }
+  EXPECT_GT(apart, 0);
+  EXPECT_LT(apart, 1e-13);
+  expect(run({"--turned-sines", "--method", "euler"}), 2, "--turned-sines: euler has one stage");
+}
+
 TEST_F(EnsembleCommand, PrintsStatisticsOfItsRows) {
   const std::vector<Row> rows = rows_of(csv(kSpreads));
   std::vector<double> ends;

@@ -18,6 +18,7 @@ JOURDAIN_ENSEMBLE(cart_pole_table, cart_pole_ensemble::Model, double)
 JOURDAIN_ENSEMBLE(cart_pole_f_table, cart_pole_ensemble::Model, float)
 JOURDAIN_ENSEMBLE(crane_table, crane_packs::Model, double)
 JOURDAIN_ENSEMBLE(double_pendulum_table, double_pendulum_packs::Model, double)
+JOURDAIN_ENSEMBLE(turned_double_pendulum_table, double_pendulum_packs::Model, double, jourdain::TurnedSines)
 JOURDAIN_ENSEMBLE(four_bar_table, four_bar_packs::Model, double)
 
 namespace jourdain::tests {
@@ -112,6 +113,24 @@ TEST(EnsembleInterface, StepsWhatItIsGiven) {
         EXPECT_EQ(many.z[2 * k + i], same.state(k).z[i]) << name << k;
       }
   }
+}
+
+TEST(EnsembleInterface, TurnsSinesWhereAsked) {
+  Tabled many(turned_double_pendulum_table()), computed(double_pendulum_table());
+  using Many = Ensemble<double_pendulum_packs::Model, double, natural_lanes<double>, TurnedSines>;
+  Many same(kStates);
+  double apart = 0;
+  ASSERT_EQ(many.run("rk4_step", 200), JOURDAIN_OK);
+  ASSERT_EQ(computed.run("rk4_step", 200), JOURDAIN_OK);
+  many.read();
+  computed.read();
+  same.run(rk4, kLength, 200);
+  for (std::size_t i = 0; i < many.z.size(); ++i) {
+    EXPECT_EQ(many.z[i], same.state(i / 2).z[i % 2]) << i;
+    apart = std::fmax(apart, std::fabs(many.z[i] - computed.z[i]));
+  }
+  EXPECT_GT(apart, 0);
+  EXPECT_LT(apart, 1e-13);
 }
 
 TEST(EnsembleInterface, ReadsInputsByStateAndStep) {

@@ -10,6 +10,7 @@ import plain_cart_pole
 import plain_crane
 import plain_squeezer
 import squeezer
+import turned_cart_pole
 
 PAIRS = ((cart_pole, plain_cart_pole, 1e-2), (crane, plain_crane, 1e-2), (squeezer, plain_squeezer, 1e-5))
 EXPLICIT = ("euler", "semi_implicit_euler", "heun", "rk4", "rk5", "adams_bashforth2", "adams_bashforth3")
@@ -54,6 +55,17 @@ class Packs(unittest.TestCase):
                     self.assertGreater(abs(expected.y[:, -1] - expected.y[:, 0]).max(), 0)
                     self.assert_same(run(packed) if "adams" in method else self.in_vectors(packed, lambda: run(packed)),
                                      expected)
+
+    def test_turned_sines_change_last_digits(self):
+        count = 2 * turned_cart_pole._ensemble.lanes
+        for method in ("euler", "semi_implicit_euler", "heun", "rk4", "rk5"):
+            for every in (1, 5):
+                def run(module):
+                    return module.Model().simulate(batch(module, count), 0.4, 1e-2, [0.3], method, every=every)
+                turned, plain = self.in_vectors(turned_cart_pole, lambda: run(turned_cart_pole)), run(plain_cart_pole)
+                apart = abs(turned.end.z - plain.end.z).max()
+                self.assertLess(apart, 1e-12, method)
+                self.assertEqual(apart > 0, "euler" not in method, method)
 
     def test_inputs_in_every_form_and_threads(self):
         count, steps = 3 * cart_pole._ensemble.lanes + 2, 12

@@ -43,6 +43,7 @@ const std::string& modules() {
       made_well(model, {"--packs"});
       made_well(model, {"--name", fmt::format("plain_{}", model)});
     }
+    made_well("cart_pole", {"--packs", "--turned-sines", "--name", "turned_cart_pole"});
     return true;
   }();
   (void)done;
@@ -167,7 +168,7 @@ except four_bar.LoopsOpen as problem:
 TEST(Python, BatchesInVectorsAreThoseOfScalarCode) {
   const ProcessResult result = run_python({kSource + "/tests/python/packs_checks.py"}, modules());
   EXPECT_EQ(result.status, 0) << result.output;
-  EXPECT_THAT(result.output, testing::ContainsRegex("Ran 5 tests"));
+  EXPECT_THAT(result.output, testing::ContainsRegex("Ran 6 tests"));
 }
 
 /// One process, two libraries with tables of ensembles of one name: each steps its own.
@@ -298,6 +299,7 @@ TEST(Python, WhatCannotBeMadeIsSaidAndNothingIsWritten) {
       {{"--functions", "forwrd"}, 2, "no function 'forwrd'"},
       {{"--packs", "--functions", "forward_dynamics"}, 2, "--packs: none of the functions is a step"},
       {{"--cxx-flags", "-O3"}, 2, "--cxx-flags requires --packs"},
+      {{"--turned-sines"}, 2, "--turned-sines requires --packs"},
       {{"--packs", "--cxx-compiler", "no-such-compiler"}, 3, "cannot run 'no-such-compiler'"},
       {{"--compiler", "no-such-compiler"}, 3, "cannot run 'no-such-compiler'"},
       {{"--flags", "--no-such-flag"}, 3, "'cc' fails"}};
