@@ -214,11 +214,22 @@ std::vector<std::string> loop_sentences(const LoadedMechanism& loaded) {
 }
 
 void tell_float_misfit(const CompiledModel& compiled) {
+  if (!compiled.weak_in_float.empty())
+    fmt::print(stderr, "warning: {}: do not use it in float; --real double writes no floats\n",
+               compiled.weak_in_float);
   if (!compiled.float_misfit.empty())
     fmt::print(stderr, "note: {}; --real double writes no floats\n", compiled.float_misfit);
 }
 
 int refuse(const LoadedMechanism& loaded, const validate::Verdict& verdict) {
+  if (!verdict.advice.empty()) {
+    const support::SourceRange& where = loaded.mechanism.loop_options.where.line > 0
+                                            ? loaded.mechanism.loop_options.where
+                                            : loaded.mechanism.where;
+    fmt::print(stderr, "{}:{}:{}: error: {}\n  {}\n", loaded.options.path, where.line, where.column,
+               verdict.failures.front(), verdict.advice);
+    return kModelWrong;
+  }
   if (verdict.overflows == verdict.failures.size()) {
     const support::SourceRange& where = loaded.mechanism.where;
     fmt::print(stderr,

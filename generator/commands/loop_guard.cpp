@@ -13,7 +13,7 @@ namespace jourdain::commands {
 
 namespace {
 
-/// m; the next closing makes good what is less. What rounding leaves is below, in float, too.
+/// m; the next closing makes good what is less. Rounding of lengths and angles of 1 leaves less, in float, too.
 constexpr double kOpen = 1e-9, kRoundings = 32;
 /// Number types that round by more are not double.
 constexpr double kDouble = std::numeric_limits<double>::epsilon();
@@ -39,7 +39,9 @@ std::string LoopGuard::problem(const studies::Point<double>& point) const {
           point.t, open);
   }
   if (closing.opening <= flow_.table().greatest_opening) return "";
-  if (!(closing.left_open <= std::max(kOpen, kRoundings * flow_.table().unit_roundoff)))
+  double size = 1;
+  for (std::size_t i = 0; i < flow_.position_count(); ++i) size = std::max(size, std::fabs(point.x[i]));
+  if (!(closing.left_open <= std::max(kOpen, kRoundings * size * flow_.table().unit_roundoff)))
     return fmt::format(
         "at t = {:g} s closing the loops leaves them open by {:.2g} m: a step of {:g} s is too long (take a "
         "shorter one), {}there is no way on: no positions close them",

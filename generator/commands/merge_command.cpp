@@ -2,6 +2,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Option.hpp>
 
+#include <filesystem>
 #include <memory>
 
 #include "commands/commands.hpp"
@@ -24,10 +25,26 @@ struct MergeArguments {
 
 void print_error(const std::string& text) { fmt::print(stderr, "error: {}\n", printable(text)); }
 
-/// False after a message where the file to write is none, or a file to write is one of those to read.
+/// "states 0 to 66 of 200": what the file holds, where it is one of several of an ensemble.
+std::optional<std::string> part_in(const std::string& path) {
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(path, none)) return {};
+  std::string problem;
+  const std::optional<EnsembleResult> result = read_ensemble_file(path, problem);
+  if (!result || result->shard.size() == result->facts.states) return {};
+  return fmt::format("states {} to {} of {}", result->shard.begin, result->shard.end - 1,
+                     result->facts.states);
+}
+
+/// False after a message where the file to write is none, or is a shard, or is one of those to read.
 bool is_output_sound(const MergeArguments& arguments) {
   if (!is_ensemble_file(arguments.output)) {
     print_error(fmt::format("{}: the file to write comes first and ends in .h5", arguments.output));
+    return false;
+  }
+  if (const std::optional<std::string> part = part_in(arguments.output)) {
+    print_error(fmt::format("{}: is a shard, {}, and would be overwritten; the file to write comes first",
+                            arguments.output, *part));
     return false;
   }
   return are_outputs_apart({arguments.output, arguments.plot}, arguments.shards,

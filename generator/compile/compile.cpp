@@ -154,6 +154,12 @@ CompiledModel compile(const model::Mechanism& mechanism, const CompileOptions& g
     return result;
   }
   if (options.choices.has_float) result.float_misfit = find_misfit(result.module, result.facts);
+  if (options.choices.has_float && plan) result.weak_in_float = plan->weak_in_float();
+  if (!result.weak_in_float.empty() && !options.choices.has_double) {
+    result.verdict.failures = {result.weak_in_float};
+    result.verdict.advice = "Double does; so may float with another treatment of the loops.";
+    return result;
+  }
   if (!result.float_misfit.empty() && !options.choices.has_double) {
     result.verdict.failures = {result.float_misfit};
     result.verdict.overflows = 1;

@@ -59,6 +59,7 @@ struct CompiledModel {
   std::vector<std::string> assumptions;  ///< sentences, as printed in the emitted header
   validate::Verdict verdict;
   std::string float_misfit;       ///< a sentence on a number that float has no room for; empty: none is known
+  std::string weak_in_float;      ///< likewise on constraints that float does not discern
   readback::Expected expected;    ///< of `files`, without the module, which is the one above
   readback::Record readback;      ///< what of `files` was read back and compared
   std::vector<emit::File> files;  ///< empty unless the verdict accepts

@@ -24,6 +24,7 @@ struct Verdict {
   std::vector<Compared> compared;     ///< what with what, in the order of comparison
   std::vector<std::string> failures;  ///< sentences; empty: accepted
   std::size_t overflows = 0;          ///< of the failures: numbers that double has no room for
+  std::string advice;                 ///< where the only failure is the description's; empty: it is not
   Kinks kinks;
 
   bool accepted() const { return failures.empty(); }

@@ -312,6 +312,94 @@ TEST(Compile, TellsNumbersThatFloatHasNoRoomFor) {
          "is zero in float");
 }
 
+/// A four-bar whose coupler weighs 10^7 times its other bars: accelerations in float were 7 % off.
+constexpr const char* kHeavyCoupler = R"(
+[model]
+name = "heavy_coupler"
+gravity = [0, -9.81, 0]
+[[body]]
+name = "short"
+mass = BARS
+center_of_mass = [0.15, 0, 0]
+shape = { kind = "rod", length = 0.3, axis = "x" }
+[[body]]
+name = "long"
+mass = 1000.0
+center_of_mass = [0.45, 0, 0]
+shape = { kind = "rod", length = 0.9, axis = "x" }
+[[body]]
+name = "middle"
+mass = BARS
+center_of_mass = [0.3, 0, 0]
+shape = { kind = "rod", length = 0.6, axis = "x" }
+[[joint]]
+name = "crank"
+type = "revolute"
+parent = "world"
+child = "short"
+axis = [0, 0, 1]
+initial_position = 1.05
+initial_velocity = 2.0
+[[joint]]
+name = "coupler"
+type = "revolute"
+parent = "short"
+child = "long"
+position = [0.3, 0, 0]
+axis = [0, 0, 1]
+initial_position = -0.66
+[[joint]]
+name = "rocker"
+type = "revolute"
+parent = "world"
+child = "middle"
+position = [1.0, 0, 0]
+axis = [0, 0, 1]
+initial_position = 1.6
+[[frame]]
+name = "end"
+body = "long"
+position = [0.9, 0, 0]
+[[frame]]
+name = "top"
+body = "middle"
+position = [0.6, 0, 0]
+[[loop]]
+name = "pin"
+type = "planar_pin"
+from = "top"
+to = "end"
+axis = [0, 0, 1]
+[loops]
+)";
+
+TEST(Compile, RefusesConstraintsThatFloatDoesNotDiscern) {
+  const support::TemporaryFolder folder;
+  const std::string model = folder.path() + "/bars.toml", output = folder.path() + "/out";
+  const auto describe = [&](const std::string& bars, const std::string& treatment) {
+    std::string text = kHeavyCoupler + ("treatment = \"" + treatment + "\"\n");
+    for (std::size_t at = 0; (at = text.find("BARS")) != std::string::npos;) text.replace(at, 4, bars);
+    support::write_file(model, text);
+  };
+  const std::string hardly = "in float multipliers hardly tell the weakest constraint from rounding (";
+  describe("0.0001", "multipliers");
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"check"}, {"compile", "-o", output}, {"simulate"}, {"ensemble"}}) {
+    std::vector<std::string> words = command;
+    words.insert(words.begin() + 1, {model, "--real", "float"});
+    expect(jourdain(words), 1, "bars.toml:");
+    expect(jourdain(words), 1, ": error: " + hardly);
+    EXPECT_FALSE(std::filesystem::exists(output));
+  }
+  const std::string told = "warning: " + hardly;
+  expect(jourdain({"compile", model, "-o", output}), 0, told);
+  EXPECT_EQ(jourdain({"check", model, "--real", "double"}).output.find(hardly), std::string::npos);
+  describe("0.0001", "explicit");
+  EXPECT_EQ(jourdain({"check", model, "--real", "float"}).output.find(hardly), std::string::npos);
+  describe("100.0", "multipliers");
+  expect(jourdain({"check", model, "--real", "float"}), 0, "ok: ");
+}
+
 TEST(Options, OfRunsInFloatAreNumbersThatFloatHasRoomFor) {
   const auto run = [](std::vector<std::string> options) {
     options.insert(options.begin(),

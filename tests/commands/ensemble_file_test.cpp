@@ -240,6 +240,13 @@ TEST_F(EnsembleFile, IsRefusedWhereItIsNone) {
   const std::string whole = write("whole.h5", part_of_whole(1, 1));
   expect(jourdain({"merge", path("all.csv"), whole}), 2, "the file to write comes first and ends in .h5");
   expect(jourdain({"merge", whole, whole}), 2, "is a shard, and would be overwritten");
+  const std::string first = write("first.h5", part_of_whole(1, 3)), bytes = support::read_file(first);
+  expect(
+      jourdain(
+          {"merge", first, write("second.h5", part_of_whole(2, 3)), write("third.h5", part_of_whole(3, 3))}),
+      2,
+      "first.h5: is a shard, states 0 to 33 of 100, and would be overwritten; the file to write comes first");
+  EXPECT_EQ(support::read_file(first), bytes);
   expect(jourdain({"merge", whole}), 2, "SHARDS is required");
 }
 

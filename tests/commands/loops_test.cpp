@@ -487,6 +487,71 @@ TEST(LoopCommands, ReportsSayWhereLoopsTurnSingularAndRecommendNothing) {
 }
 #endif
 
+/// A crank that goes round 17 times: float rounds its angle by more than what is open at an angle of 1.
+TEST(LoopCommands, FloatsOfLargeAnglesAreNotTakenForOpenLoops) {
+  const support::TemporaryFolder folder;
+  const std::string model = folder.path() + "/turning.toml";
+  support::write_file(model, R"(
+[model]
+name = "turning"
+gravity = [0, -9.81, 0]
+[[body]]
+name = "arm"
+mass = 0.6
+center_of_mass = [0.15, 0, 0]
+shape = { kind = "rod", length = 0.3, axis = "x" }
+[[body]]
+name = "bar"
+mass = 1.6
+center_of_mass = [0.4, 0, 0]
+shape = { kind = "rod", length = 0.8, axis = "x" }
+[[body]]
+name = "slider"
+mass = 0.6
+[[joint]]
+name = "crank"
+type = "revolute"
+parent = "world"
+child = "arm"
+axis = [0, 0, 1]
+initial_position = 0.6
+initial_velocity = 6.0
+[[joint]]
+name = "rod"
+type = "revolute"
+parent = "arm"
+child = "bar"
+position = [0.3, 0, 0]
+axis = [0, 0, 1]
+initial_position = -0.686850070420895
+[[joint]]
+name = "piston"
+type = "prismatic"
+parent = "world"
+child = "slider"
+position = [0, 0.1, 0]
+axis = [1, 0, 0]
+initial_position = 1.0445854066320879
+[[frame]]
+name = "end"
+body = "bar"
+position = [0.8, 0, 0]
+[[loop]]
+name = "pin"
+type = "planar_pin"
+from = "slider"
+to = "end"
+axis = [0, 0, 1]
+[loops]
+treatment = "multipliers"
+)");
+  const std::vector<std::string> words = {"simulate", model, "--duration", "20", "--step", "0.002"};
+  expect(jourdain(words), 0, "piston");
+  std::vector<std::string> in_float = words;
+  in_float.insert(in_float.end(), {"--real", "float"});
+  expect(jourdain(in_float), 0, "piston");
+}
+
 TEST(LoopCommands, FloatIsNamedWhereItIsTooCoarse) {
   expect(
       jourdain({"simulate", "models/n_four_bar.toml", "--real", "float", "--duration", "1", "--step", "0.001",

@@ -122,14 +122,14 @@ bool limit_regularisation(const model::Mechanism& mechanism, const std::vector<C
     smallest = std::max(smallest, values.minCoeff());
   }
   const long double largest = plan.closing_regularisation / kLeast;
+  plan.weakest = static_cast<double>(smallest / largest);
   if (smallest < kDiscerned * largest) {
     diagnostics.error(
         mechanism.loop_options.where,
         fmt::format(
             "multipliers cannot hold these constraints: in double they do not tell the weakest from nothing "
             "({:.1g} of the strongest, by G M^-1 G^T); masses, units or directions are too far apart{}",
-            static_cast<double>(smallest / largest),
-            plan.reason.empty() ? "" : fmt::format("; no other treatment: {}", plan.reason)),
+            plan.weakest, plan.reason.empty() ? "" : fmt::format("; no other treatment: {}", plan.reason)),
         "leave out what weighs next to nothing, or constraints that others nearly fulfil");
     return false;
   }

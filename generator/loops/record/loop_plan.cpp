@@ -26,6 +26,15 @@ std::vector<std::size_t> LoopPlan::carried() const {
   return list;
 }
 
+std::string LoopPlan::weak_in_float() const {
+  constexpr double kDiscerned = 1e-4;  // of which 2^-24 is 6e-4
+  if (treatment != LoopTreatment::kMultipliers || weakest >= kDiscerned) return "";
+  return fmt::format(
+      "in float multipliers hardly tell the weakest constraint from rounding ({:.1g} of the strongest, by G "
+      "M^-1 G^T)",
+      weakest);
+}
+
 double LoopPlan::most_left_open() const {
   return std::max(kAskew * std::min(1.0, length_unit), 10 * disagreement);
 }

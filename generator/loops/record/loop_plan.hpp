@@ -58,6 +58,11 @@ struct LoopPlan {
   /// is made good; see SchurFactors. Multipliers that were asked for are meant to pass singular
   /// configurations: there more bounds them.
   double regularisation = 0, closing_regularisation = 0;
+  /// Weakest constraint that multipliers hold, as a share of the strongest: of singular values of G M⁻¹ Gᵀ, rows
+  /// scaled, where it is largest. 1 where it was not looked at.
+  double weakest = 1;
+  /// A sentence where the rounding of float, as a share of the weakest constraint, leaves less than three digits.
+  std::string weak_in_float() const;
   int corrections = 1;
   double determinant = 1;  ///< of what closing solves for, its largest at the configurations seen
   std::optional<ClosedForm> closed_form;  ///< of the dependent positions; kExplicit
