@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "commands/commands.hpp"
+#include "commands/emission.hpp"
 #include "commands/ensemble_file.hpp"
 #include "commands/ensemble_plot.hpp"
 #include "commands/ensemble_run.hpp"
@@ -20,6 +21,7 @@
 #include "commands/run_length.hpp"
 #include "commands/run_setup.hpp"
 #include "commands/spread_check.hpp"
+#include "programs/steppers.hpp"
 #include "support/files.hpp"
 
 namespace jourdain::commands {

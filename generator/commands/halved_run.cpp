@@ -18,21 +18,22 @@ constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 /// Of lengths and angles, at least of 1 m and 1 rad; in units of rounding where that is more.
 constexpr double kNothing = 1e-9, kRoundings = 64;
-/// Of energy: changes by a hundredth of the velocities.
-constexpr double kLittle = 1e-4;
+/// Of energy: changes by a hundredth of the velocities. Of what is there at the start or released, for so many times:
+/// what relaxes in a few steps may do so otherwise.
+constexpr double kLittle = 1e-4, kRelaxing = 100;
+/// First steps after which runs are compared, and about as many comparisons later.
+constexpr long kCompared = 1000;
+constexpr const char* kQuaternion = "1";
 
-/// What steps do to the velocities of a unit that two of half the length from the same states do not.
+/// What steps do to entries that two of half the length from the same states do not.
 struct LocalErrors {
-  double sum = 0;      ///< over all steps, of the Euclidean norm
-  double largest = 0;  ///< of a velocity, in a step
-  std::size_t velocity = 0;
+  double sum = 0;       ///< over all steps, of the Euclidean norm
+  double largest = 0;   ///< norm, of a step
   Point<double> point;  ///< where that step begins
 };
 
 /// Makes the run again, up to where something is no number.
-LocalErrors local_errors(const RunSteps& run, const std::vector<std::string>& units,
-                         const std::string& unit) {
-  const std::size_t first = run.flow.position_count();
+LocalErrors local_errors(const RunSteps& run, const std::vector<std::size_t>& entries) {
   LocalErrors found;
   Point<double> point = run.flow.start();
   found.point = point;
@@ -45,101 +46,139 @@ LocalErrors local_errors(const RunSteps& run, const std::vector<std::string>& un
     run.flow.step(run.method, point, run.h, 1, memory);
     point.t = static_cast<double>(done + 1) * run.h;
     double square = 0;
-    for (std::size_t k = 0; k < units.size(); ++k) {
-      if (units[k] != unit) continue;
-      const double difference = std::fabs(point.x[first + k] - halved.x[first + k]);
-      const double error = std::isfinite(difference) ? difference : kInfinite;
-      square += error * error;
-      if (error <= found.largest) continue;
+    for (const std::size_t k : entries) {
+      const double difference = std::fabs(point.x[k] - halved.x[k]);
+      square += std::isfinite(difference) ? difference * difference : kInfinite;
+    }
+    const double error = std::sqrt(square);
+    if (error > found.largest) {
       found.largest = error;
-      found.velocity = k;
       found.point = before;
     }
-    found.sum += std::sqrt(square);
+    found.sum += error;
   }
   return found;
 }
 
-double size_of(const Point<double>& point) {
+/// Largest of the positions, but for states and quaternions: m, rad; at least 1.
+double size_of(const RunSteps& run, const std::vector<std::string>& units) {
+  const Point<double> point = run.flow.start();
   double size = 1;
-  for (const double entry : point.x) size = std::max(size, std::fabs(entry));
+  for (std::size_t k = 0; k < run.flow.position_count(); ++k)
+    if (!units[k].empty()) size = std::max(size, std::fabs(point.x[k]));
   return size;
 }
 
 }  // namespace
 
-double UnitChange::share() const {
+double EntryChange::share() const {
   if (!std::isfinite(largest) || !std::isfinite(square)) return kInfinite;
   return square == 0 ? 0 : std::sqrt(square / size);
 }
 
-HalvedRun::HalvedRun(const Flow<double>& flow, const jourdain_method& method, double h,
+HalvedRun::HalvedRun(const Flow<double>& flow, const jourdain_method& method, double h, long count,
                      const std::vector<std::string>& units)
-    : flow_(flow), method_(method), h_(h), point_(flow.start()), memory_(flow.fresh_memory(method)) {
-  potential_ = flow.energy(point_) - flow.kinetic_energy(point_);
-  for (const std::string& unit : units) {
+    : flow_(flow),
+      method_(method),
+      h_(h),
+      stride_(std::max(1L, (count - kCompared) / kCompared)),
+      point_(flow.start()),
+      memory_(flow.fresh_memory(method)),
+      start_(flow.kinetic_energy(point_)) {
+  lowest_ = highest_ = flow.energy(point_) - start_;
+  for (std::size_t k = 0; k < units.size(); ++k) {
+    const std::string& unit = units[k];
     const auto same = std::find_if(changes_.begin(), changes_.end(),
                                    [&unit](const UnitChange& change) { return change.unit == unit; });
     change_of_.push_back(unit.empty() ? kNone : static_cast<std::size_t>(same - changes_.begin()));
-    if (!unit.empty() && same == changes_.end()) changes_.push_back({unit});
+    if (unit.empty()) continue;
+    if (same == changes_.end()) changes_.push_back({unit, 0});
+    const bool goes_on = k > 0 && unit == kQuaternion && units[k - 1] == kQuaternion &&
+                         entries_.back().entries.size() % 4 != 0;
+    if (goes_on)
+      entries_.back().entries.push_back(k);
+    else if (k >= flow.position_count() || unit == kQuaternion)
+      entries_.push_back({{k}, 0, 0, 0, 0});
   }
+}
+
+long HalvedRun::steps_to_next(long done) const {
+  return done < kCompared ? 1 : stride_ - (done - kCompared) % stride_;
 }
 
 void HalvedRun::follow(const Point<double>& point, long steps) {
   flow_.step(method_, point_, h_ / 2, 2 * steps, memory_);
   done_ += steps;
   point_.t = static_cast<double>(done_) * h_;
-  const std::size_t first = flow_.position_count();
-  const double energy = flow_.kinetic_energy(point_), potential = flow_.energy(point_) - energy;
-  const double released = std::fabs(potential - std::exchange(potential_, potential));
-  for (std::size_t i = 0; i < changes_.size(); ++i) {
-    UnitChange& change = changes_[i];
-    Point<double> difference = point_;
-    std::fill(difference.x.begin() + static_cast<std::ptrdiff_t>(first), difference.x.end(), 0.0);
-    for (std::size_t k = 0; k < point.x.size(); ++k) {
-      if (change_of_[k] != i) continue;
-      const double by = std::fabs(point.x[k] - point_.x[k]);
-      change.largest = std::isfinite(by) ? std::max(change.largest, by) : kInfinite;
+  const double kinetic = flow_.kinetic_energy(point_), potential = flow_.energy(point_) - kinetic;
+  energies_ += kinetic;
+  lowest_ = std::min(lowest_, potential);
+  highest_ = std::max(highest_, potential);
+  const auto apart = [&](std::size_t k) {
+    const double by = std::fabs(point.x[k] - point_.x[k]);
+    return std::isfinite(by) ? by : kInfinite;
+  };
+  for (std::size_t k = 0; k < point.x.size(); ++k)
+    if (change_of_[k] != kNone)
+      changes_[change_of_[k]].largest = std::max(changes_[change_of_[k]].largest, apart(k));
+  Point<double> difference = point_;
+  const auto velocities = difference.x.begin() + static_cast<std::ptrdiff_t>(flow_.position_count());
+  std::fill(velocities, difference.x.end(), 0.0);
+  for (EntryChange& change : entries_) {
+    for (const std::size_t k : change.entries) {
+      const double by = apart(k);
+      change.largest = std::max(change.largest, by);
       change.square += by * by;
       change.size += point_.x[k] * point_.x[k];
-      if (k >= first) difference.x[k] = point.x[k] - point_.x[k];
     }
+    const std::size_t k = change.entries.front();
+    if (k < flow_.position_count()) continue;
+    difference.x[k] = point.x[k] - point_.x[k];
     change.energy += flow_.kinetic_energy(difference);
-    change.energies += energy;
-    change.released = std::max(change.released, released);
-    ++change.times;
+    difference.x[k] = 0;
   }
+  ++times_;
+}
+
+double HalvedRun::energies() const {
+  return std::max(energies_, kRelaxing * std::max(start_, highest_ - lowest_));
 }
 
 namespace {
 
 /// Whether half the step leads elsewhere, as judge_halving has it.
-bool is_much(const RunSteps& run, const UnitChange& change, double accuracy) {
+bool is_much(const RunSteps& run, const HalvedRun& halved, const EntryChange& change,
+             const std::vector<std::string>& units, double accuracy) {
   if (!std::isfinite(change.square)) return true;
+  if (!(change.share() > accuracy)) return false;
+  if (change.entries.front() < run.flow.position_count()) return true;
   const double nothing = std::max(kNothing, kRoundings * run.flow.table().unit_roundoff);
   const double duration = run.h * static_cast<double>(run.count);
-  const double energies = std::max(change.energies, static_cast<double>(change.times) * change.released);
-  return change.share() > accuracy && change.energy > kLittle * energies &&
-         change.largest * duration > nothing * size_of(run.flow.start());
+  return change.energy > kLittle * halved.energies() &&
+         change.largest * duration > nothing * size_of(run, units);
 }
 
 }  // namespace
 
-HalvingVerdict judge_halving(const RunSteps& run, const std::vector<UnitChange>& changes,
-                             const std::vector<std::string>& velocities, double accuracy) {
+HalvingVerdict judge_halving(const RunSteps& run, const HalvedRun& halved,
+                             const std::vector<std::string>& units, double accuracy) {
   HalvingVerdict verdict;
-  for (const UnitChange& change : changes) {
-    if (std::find(velocities.begin(), velocities.end(), change.unit) == velocities.end()) continue;
-    if (!is_much(run, change, accuracy)) continue;
+  for (const EntryChange& change : halved.entries()) {
+    if (!is_much(run, halved, change, units, accuracy)) continue;
     verdict.leads_elsewhere = true;
-    const double usual = std::sqrt(change.size / static_cast<double>(change.times));
-    const LocalErrors errors = local_errors(run, velocities, change.unit);
+    const double usual = std::sqrt(change.size / static_cast<double>(halved.times()));
+    const LocalErrors errors = local_errors(run, change.entries);
     if (std::isfinite(change.square) && !(errors.sum > accuracy * usual)) continue;
+    const std::size_t k = change.entries.front(), positions = run.flow.position_count();
+    const bool is_velocity = k >= positions;
+    const char* const name =
+        is_velocity ? run.flow.table().velocity_names[k - positions] : run.flow.table().position_names[k];
     verdict.wrong = fmt::format(
-        "this is not the motion: half the step changes velocities in {} by {:.2g} of what they are (allowed: "
-        "{:g}); the step from t = {:g} s on changes '{}' by {:.2g} {} that two halves do not",
-        change.unit, change.share(), accuracy, errors.point.t,
-        run.flow.table().velocity_names[errors.velocity], errors.largest, change.unit);
+        "this is not the motion: half the step changes {} '{}' by {:.2g} of what it is (allowed: {:g}); the "
+        "step "
+        "from t = {:g} s on changes it by {:.2g}{} that two halves do not",
+        is_velocity ? "velocity" : "the quaternion from", name, change.share(), accuracy, errors.point.t,
+        errors.largest, is_velocity ? " " + units[k] : "");
     verdict.point = errors.point;
     return verdict;
   }
@@ -149,7 +188,8 @@ HalvingVerdict judge_halving(const RunSteps& run, const std::vector<UnitChange>&
 std::string halving_text(const std::vector<UnitChange>& changes) {
   std::string text = "half the step moves it by at most";
   for (std::size_t i = 0; i < changes.size(); ++i)
-    text += fmt::format("{} {:.1g} {}", i == 0 ? "" : ",", changes[i].largest, changes[i].unit);
+    text += fmt::format("{} {:.1g} {}", i == 0 ? "" : ",", changes[i].largest,
+                        changes[i].unit == kQuaternion ? "(quaternions)" : changes[i].unit);
   return text;
 }
 

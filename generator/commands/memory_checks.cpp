@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "programs/steppers.hpp"
@@ -19,6 +20,19 @@ std::string check_multistep(const std::vector<std::string>& functions, const mod
           stepper->name, mechanism.name);
   }
   return "";
+}
+
+bool samples_at_steps(const model::Mechanism& mechanism) {
+  const auto waits = [&](const model::Expression::Node& node) {  // for a sample to be due
+    return node.op == model::Expression::Op::kVariable &&
+           node.variable.kind == model::Variable::Kind::kState &&
+           mechanism.states[node.variable.index].period;
+  };
+  return std::any_of(
+      mechanism.states.begin(), mechanism.states.end(), [&](const model::StateVariable& state) {
+        return state.sampled && !state.period &&
+               std::none_of(state.sampled->nodes().begin(), state.sampled->nodes().end(), waits);
+      });
 }
 
 std::string check_sampling(const model::Mechanism& mechanism, const std::vector<double>& parameters,

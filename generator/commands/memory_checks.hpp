@@ -17,6 +17,9 @@ std::string check_multistep(const std::vector<std::string>& functions, const mod
 std::string check_sampling(const model::Mechanism& mechanism, const std::vector<double>& parameters,
                            double h);
 
+/// Whether a memory samples at every step, so that shorter steps are another controller.
+bool samples_at_steps(const model::Mechanism& mechanism);
+
 /// Why the parameter `entry` may not be drawn, which is to be up to `width` off: a memory's period follows from it, and
 /// whatever is drawn is no whole number of steps. Empty: none does.
 std::string check_drawn_sampling(const model::Mechanism& mechanism, const std::vector<double>& parameters,

@@ -4,6 +4,10 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <vector>
 
 #include "commands/commands.hpp"
 #include "commands/ensemble_file.hpp"

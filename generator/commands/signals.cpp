@@ -94,18 +94,11 @@ std::vector<std::size_t> Signals::positions() const {
   return indices;
 }
 
-std::vector<std::string> Signals::velocity_units() const {
-  std::vector<std::string> units;
-  for (std::size_t i = positions_; i < state_; ++i)
-    units.push_back(list_[i].kind == "velocity" ? list_[i].unit : "");
-  return units;
-}
-
 std::vector<std::string> Signals::state_units() const {
   std::vector<std::string> units;
   for (std::size_t i = 0; i < state_; ++i) {
     const Signal& signal = list_[i];
-    units.push_back(signal.kind == "state" || signal.unit == "1" ? "" : signal.unit);
+    units.push_back(signal.kind == "state" ? "" : signal.unit);
   }
   return units;
 }

@@ -33,9 +33,7 @@ class Signals {
   /// numbers of the output or of the member of one that has that name.
   std::vector<std::size_t> matching(const std::string& pattern) const;
   std::vector<std::size_t> positions() const;
-  /// Of the entries of z; empty of states.
-  std::vector<std::string> velocity_units() const;
-  /// Of the entries of y and z; empty of quaternions and states.
+  /// Of the entries of y and z; "1" of quaternions, empty of states.
   std::vector<std::string> state_units() const;
 
   /// Values at a point, in order; without the outputs where these are not wanted.

@@ -65,15 +65,16 @@ struct Trajectory {
   studies::Residuals open;                                          ///< largest, of the loops
   std::vector<double> end_rates;                                    ///< of the positions
   double stepping_time = 0;                                         ///< s of wall time spent in steps
-  std::vector<UnitChange> halved;                                   ///< what half the step changes
+  std::optional<HalvedRun> halved;                                  ///< what half the step changes
   std::optional<Breach> breach;                                     ///< where the run ended early
 };
 
 class Simulation {
  public:
-  /// `guard` may be null.
+  /// `guard` may be null. `halves`: half the step is looked at.
   Simulation(const Flow<double>& flow, const SimulateArguments& arguments, bool conserves_energy,
-             const Signals& signals, const Selection& selection, const LoopGuard* guard)
+             const Signals& signals, const Selection& selection, const LoopGuard* guard, long steps,
+             bool halves)
       : flow_(flow),
         signals_(signals),
         selection_(selection),
@@ -85,21 +86,24 @@ class Simulation {
         conserves_energy_(conserves_energy),
         guard_(guard),
         step_guard_(flow, method_, arguments.step),
-        halved_(flow, method_, arguments.step, signals.state_units()) {
+        steps_(steps) {
+    if (halves) state_.halved.emplace(flow, method_, arguments.step, steps, signals.state_units());
     state_.open = flow.residuals(flow.start());
     state_.first_energy = flow.energy(flow.start());
     for (const std::size_t i : selection.drawn) state_.drawn.push_back({signals.list()[i], {}});
   }
 
   /// Steps from the initial state, appending a CSV row every so many steps.
-  Trajectory run(long steps, std::string& csv) {
+  Trajectory run(std::string& csv) {
     studies::Memory memory = flow_.fresh_memory(method_);
     state_.end = flow_.start();
     header(csv);
     row(csv);
     ProgressBar progress;
-    for (long done = 0; done < steps && !state_.breach;) {
-      const long block = std::min(arguments_.every, steps - done);
+    for (long done = 0; done < steps_ && !state_.breach;) {
+      const long to_row = arguments_.every - done % arguments_.every;
+      const long to_comparison = state_.halved ? state_.halved->steps_to_next(done) : to_row;
+      const long block = std::min({to_row, to_comparison, steps_ - done});
       const Point<double> before = state_.end;
       const studies::Memory memory_before = memory;
       const auto begin = Clock::now();
@@ -111,12 +115,11 @@ class Simulation {
         watch_steps(before, memory_before, block);
       else
         watch(before, state_.end);
-      if (!state_.breach) halved_.follow(state_.end, block);
-      row(csv);
-      progress.show("simulating", static_cast<double>(done) / static_cast<double>(steps));
+      if (!state_.breach) follow(block, block == to_comparison || done == steps_);
+      if (block == to_row || done == steps_ || state_.breach) row(csv);
+      progress.show("simulating", static_cast<double>(done) / static_cast<double>(steps_));
     }
     state_.end_rates = flow_.rates(state_.end.t, state_.end.x);
-    state_.halved = halved_.changes();
     return state_;
   }
 
@@ -125,6 +128,14 @@ class Simulation {
   std::string trouble(const Point<double>& point) const {
     const std::string out = bounds_.breach(point);
     return out.empty() && guard_ ? guard_->problem(point) : out;
+  }
+
+  /// The run in half steps, to where this one is compared with it.
+  void follow(long steps, bool is_due) {
+    behind_ += steps;
+    if (!state_.halved || !is_due) return;
+    state_.halved->follow(state_.end, behind_);
+    behind_ = 0;
   }
 
   /// Makes the steps of a block again, one by one: the block as a whole is what is timed.
@@ -182,7 +193,8 @@ class Simulation {
   bool conserves_energy_ = false;
   const LoopGuard* guard_;
   StepGuard step_guard_;
-  HalvedRun halved_;
+  long steps_ = 0;
+  long behind_ = 0;  ///< steps that the run in half steps has not made
   Trajectory state_;
 };
 
@@ -240,8 +252,8 @@ void print_summary(const RunModel& model, const RunInputs& inputs, const Simulat
              arguments.step * 1e6 / microseconds);
   if (inputs.what.empty() && report::conserves_energy(model.loaded.mechanism))
     fmt::print("  energy {:.6g} J, drift {:.2g} J at most\n", result.first_energy, result.largest_drift);
-  if (!result.halved.empty())
-    fmt::print("  {}{}\n", halving_text(result.halved),
+  if (result.halved && !result.halved->changes().empty())
+    fmt::print("  {}{}\n", halving_text(result.halved->changes()),
                is_sensitive ? ": small differences grow, the end depends on them" : "");
   if (table.correct)
     fmt::print("  loops open by {:.1g} m (rate {:.1g} m/s) at most\n", result.open.position,
@@ -311,7 +323,9 @@ int run(const SimulateArguments& arguments) {
       model->loaded.plan() ? std::optional<LoopGuard>(std::in_place, flow, model->loaded, arguments.step)
                            : std::nullopt;
   const Trajectory result =
-      Simulation(flow, arguments, conserves, signals, *selection, guard ? &*guard : nullptr).run(*steps, csv);
+      Simulation(flow, arguments, conserves, signals, *selection, guard ? &*guard : nullptr, *steps,
+                 !samples_at_steps(model->loaded.mechanism))
+          .run(csv);
   if (result.breach) {
     fmt::print(stderr, "{}",
                breach_text(flow, programs::displaced_tangent(compiled.facts), *result.breach,
@@ -324,9 +338,10 @@ int run(const SimulateArguments& arguments) {
   if (picture.empty() && !plot->file.empty())
     fmt::print(stderr, "note: no plot: no value of what it was to show is finite\n");
   std::string wrong = drift_text(*model, loaded.table(), result, arguments, *steps);
-  const HalvingVerdict halving =
-      judge_halving({flow, method_called(loaded.table(), arguments.method), arguments.step, *steps},
-                    result.halved, signals.velocity_units(), arguments.accuracy);
+  HalvingVerdict halving;
+  if (result.halved)
+    halving = judge_halving({flow, method_called(loaded.table(), arguments.method), arguments.step, *steps},
+                            *result.halved, signals.state_units(), arguments.accuracy);
   if (wrong.empty() && !halving.wrong.empty()) wrong = halving_error(flow, compiled, halving, arguments);
   if (!wrong.empty()) fmt::print(stderr, "error: {}\n", wrong);
   const int outcome = wrong.empty() ? kSuccess : kModelWrong;

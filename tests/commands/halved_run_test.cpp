@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kSays = "this is not the motion: half the step changes velocities in ";
+constexpr const char* kSays = "this is not the motion: half the step changes ";
 
 constexpr const char* kGrows = "small differences grow, the end depends on them";
 
@@ -128,6 +128,81 @@ TEST(HalvedRun, SeesNothingWhereOthersAreFast) {
     const support::ProcessResult result = PushedScene(train).simulate("linearly_implicit_euler", step, "2");
     EXPECT_EQ(result.status, 0) << step << result.output;
   }
+}
+
+/// A body that spins at a constant rate turns further in each step than the method follows.
+TEST(HalvedRun, LooksAtAttitudes) {
+  const PushedScene spin(
+      "[model]\nname = \"spin\"\ngravity = [0, 0, 0]\n[[body]]\nname = \"b\"\nmass = 1\n"
+      "inertia = [0.1, 0.1, 0.1]\n[[joint]]\nname = \"f\"\ntype = \"free\"\nparent = \"world\"\n"
+      "child = \"b\"\ninitial_angular_velocity = [30, 40, 100]\n");
+  const support::ProcessResult wrong = spin.simulate("rk4", "0.02", "2");
+  EXPECT_EQ(wrong.status, 1);
+  EXPECT_NE(wrong.output.find("half the step changes the quaternion from 'f_qw' by 0.4"), std::string::npos)
+      << wrong.output;
+  EXPECT_NE(wrong.output.find("0.8 (quaternions)"), std::string::npos) << wrong.output;
+  const support::ProcessResult right = spin.simulate("rk4", "0.001", "2");
+  EXPECT_EQ(right.status, 0) << right.output;
+}
+
+/// An oscillation that a method brakes away is not forgotten in a long run, nor by how often rows are written.
+TEST(HalvedRun, RemembersWhatIsBrakedAway) {
+  const PushedScene run(pushed_slide("1", "1", "stiffness = 40\ndamping = 1e-4\n", "0"));
+  for (const char* duration : {"20", "100", "2000"})
+    EXPECT_EQ(run.simulate("linearly_implicit_euler", "0.1", duration).status, 1) << duration;
+  for (const char* every : {"1", "50", "200"})
+    EXPECT_EQ(run.simulate("linearly_implicit_euler", "0.1", "20", {"--every", every}).status, 1) << every;
+  EXPECT_EQ(run.simulate("rodas4", "0.05", "20").status, 0);
+}
+
+/// Neither a pressure in Pa nor a fast rotor hides what else is wrong.
+TEST(HalvedRun, LooksAtEachVelocityByItself) {
+  const std::string pressure = "[[state]]\nname = \"p\"\nrate = \"0\"\ninitial = 2e7\nunit = \"Pa\"\n";
+  EXPECT_EQ(PushedScene(pushed_slide("1", "0.01", "stiffness = 40\n", "0") + pressure)
+                .simulate("linearly_implicit_euler", "0.1", "5")
+                .status,
+            1);
+  const std::string pendulum =
+      "[model]\nname = \"driven\"\ngravity = [0, -9.81, 0]\n[[body]]\nname = \"a\"\nmass = 1\n"
+      "center_of_mass = [1, 0, 0]\n[[joint]]\nname = \"q\"\ntype = \"revolute\"\nparent = \"world\"\n"
+      "child = \"a\"\naxis = [0, 0, 1]\ninitial_position = 0.5\n"
+      "[[body]]\nname = \"spindle\"\nmass = 0.01\ninertia = [1e-4, 1e-4, 1e-4]\n"
+      "[[joint]]\nname = \"s\"\ntype = \"revolute\"\nparent = \"a\"\nchild = \"spindle\"\n"
+      "axis = [0, 0, 1]\ninitial_velocity = 3000\n";
+  const support::ProcessResult braked =
+      PushedScene(pendulum).simulate("linearly_implicit_euler", "0.05", "20");
+  EXPECT_EQ(braked.status, 1) << braked.output;
+  EXPECT_NE(braked.output.find("velocity 'q'"), std::string::npos) << braked.output;
+  EXPECT_EQ(PushedScene(pendulum).simulate("rk4", "0.001", "5").status, 0);
+}
+
+/// Two rotors that a stiff clutch brings to rest in the first step; a memory that samples at every step, which is
+/// another controller in shorter ones.
+TEST(HalvedRun, SeesNothingWhereStepsAreMeant) {
+  const std::string clutch =
+      "[model]\nname = \"clutch\"\ngravity = [0, 0, 0]\n[[repeat]]\ncount = 2\n[[repeat.body]]\n"
+      "name = \"b{i}\"\nmass = 1\ninertia = [0.1, 0.1, 0.1]\n[[repeat.joint]]\nname = \"q{i}\"\n"
+      "type = \"revolute\"\nparent = \"world\"\nchild = \"b{i}\"\naxis = [0, 0, 1]\n"
+      "initial_velocity = \"30 - 20*{i}\"\n"
+      "[[force]]\njoint = \"q1\"\nvalue = \"2e3*(q2.rate - q1.rate)\"\n"
+      "[[force]]\njoint = \"q2\"\nvalue = \"2e3*(q1.rate - q2.rate)\"\n";
+  for (const char* duration : {"0.01", "1"}) {
+    const support::ProcessResult result = PushedScene(clutch).simulate("rodas4", "0.001", duration);
+    EXPECT_EQ(result.status, 0) << duration << result.output;
+  }
+  const std::string sampled = pushed_slide("1", "1", "", "u") +
+                              "[[memory]]\nname = \"last\"\nupdate = \"x\"\nPERIOD\ninitial = 1\n"
+                              "[[memory]]\nname = \"u\"\nupdate = \"-20*x - 4*(x - last)/0.01\"\nPERIOD\n";
+  const auto with_period = [&](const std::string& period) {
+    std::string scene = sampled;
+    for (std::size_t at = 0; (at = scene.find("PERIOD")) != std::string::npos;)
+      scene.replace(at, 6, "period = " + period);
+    return PushedScene(scene).simulate("rk4", "0.01", "5");
+  };
+  const support::ProcessResult each = with_period("0"), slow = with_period("0.1");
+  EXPECT_EQ(each.status, 0) << each.output;
+  EXPECT_EQ(each.output.find("half the step"), std::string::npos) << each.output;
+  EXPECT_NE(slow.output.find("half the step"), std::string::npos) << slow.output;
 }
 
 /// By symmetry a velocity stays rounding, which a long step may make a thousand times as much.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "commands/run_jourdain.hpp"
 #include "support/files.hpp"
@@ -27,9 +28,15 @@ class PushedScene {
   }
 
   support::ProcessResult simulate(const std::string& method, const std::string& step,
-                                  const std::string& duration) const {
-    return jourdain({"simulate", folder_.path() + "/scene.toml", "--method", method, "--step", step,
-                     "--duration", duration, "--output", csv()});
+                                  const std::string& duration,
+                                  const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> words = {"simulate",   folder_.path() + "/scene.toml",
+                                      "--method",   method,
+                                      "--step",     step,
+                                      "--duration", duration,
+                                      "--output",   csv()};
+    words.insert(words.end(), more.begin(), more.end());
+    return jourdain(words);
   }
   std::string csv() const { return folder_.path() + "/x.csv"; }
 

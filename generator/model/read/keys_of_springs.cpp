@@ -14,7 +14,8 @@ KeySection spring_section() {
        {"damping", "number", "N s/m", "0", ""},
        {"free_length", "number", "m", "0", ""},
        {"acts", "\"both ways\", \"pulling\", \"pushing\"", "", "\"both ways\"",
-        "stiffness and damping: pulling, a rope, never push, max(k e + c e', 0) at a stretch e; pushing, "
+        "stiffness and damping: pulling, a rope, never push, max(k e + c e', 0) at a stretch e > 0, else 0; "
+        "pushing, "
         "a gap, "
         "never pull"},
        {"law", "expression", "N", "0", "added; of length (m) and rate (m/s)"},
@@ -50,18 +51,18 @@ torsional_damping = [0, 0, 0.01]
 }
 
 KeySection cable_section() {
-  return {
-      "cable",
-      "[[cable]]",
-      "A cable that runs through points from one end to the other, as over sheaves without friction: the "
-      "tension max(stiffness e + damping e', 0) at a stretch e of its whole length is the same all along. "
-      "It never pushes.",
-      {{"name", "text", "", "its number", "for messages"},
-       {"through", "list of names", "", kRequired, "2 to 20 frames or bodies, from end to end"},
-       {"stiffness", "number", "N/m", kRequired, "positive"},
-       {"damping", "number", "N s/m", "0", "not negative"},
-       {"free_length", "number", "m", kRequired, "positive"}},
-      R"([[cable]]
+  return {"cable",
+          "[[cable]]",
+          "A cable that runs through points from one end to the other, as over sheaves without friction: the "
+          "tension max(stiffness e + damping e', 0) at a stretch e > 0 of its whole length, else 0, is the "
+          "same all along. "
+          "It never pushes.",
+          {{"name", "text", "", "its number", "for messages"},
+           {"through", "list of names", "", kRequired, "2 to 20 frames or bodies, from end to end"},
+           {"stiffness", "number", "N/m", kRequired, "positive"},
+           {"damping", "number", "N s/m", "0", "not negative"},
+           {"free_length", "number", "m", kRequired, "positive"}},
+          R"([[cable]]
 through = ["cover", "small_end", "crankshaft"]
 stiffness = 500
 free_length = 2
