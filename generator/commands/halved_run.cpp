@@ -32,32 +32,35 @@ struct LocalErrors {
   Point<double> point;  ///< where that step begins
 };
 
-/// Makes the run again, up to where something is no number.
-LocalErrors local_errors(const RunSteps& run, const std::vector<std::size_t>& entries) {
-  LocalErrors found;
+/// Makes the run again, up to where something is no number. One for each of the changes.
+std::vector<LocalErrors> local_errors(const RunSteps& run, const std::vector<const EntryChange*>& changes) {
   Point<double> point = run.flow.start();
-  found.point = point;
+  std::vector<LocalErrors> errors(changes.size(), LocalErrors{0, 0, point});
   studies::Memory memory = run.flow.fresh_memory(run.method);
-  for (long done = 0; done < run.count && std::isfinite(found.sum); ++done) {
+  bool is_finite = true;
+  for (long done = 0; done < run.count && is_finite; ++done) {
     const Point<double> before = point;
     Point<double> halved = point;
     studies::Memory short_memory = run.flow.fresh_memory(run.method);
     run.flow.step(run.method, halved, run.h / 2, 2, short_memory);
     run.flow.step(run.method, point, run.h, 1, memory);
     point.t = static_cast<double>(done + 1) * run.h;
-    double square = 0;
-    for (const std::size_t k : entries) {
-      const double difference = std::fabs(point.x[k] - halved.x[k]);
-      square += std::isfinite(difference) ? difference * difference : kInfinite;
+    for (std::size_t i = 0; i < changes.size(); ++i) {
+      double square = 0;
+      for (const std::size_t k : changes[i]->entries) {
+        const double difference = std::fabs(point.x[k] - halved.x[k]);
+        square += std::isfinite(difference) ? difference * difference : kInfinite;
+      }
+      const double error = std::sqrt(square);
+      if (error > errors[i].largest) {
+        errors[i].largest = error;
+        errors[i].point = before;
+      }
+      errors[i].sum += error;
+      is_finite &= std::isfinite(error);
     }
-    const double error = std::sqrt(square);
-    if (error > found.largest) {
-      found.largest = error;
-      found.point = before;
-    }
-    found.sum += error;
   }
-  return found;
+  return errors;
 }
 
 /// Largest of the positions, but for states and quaternions: m, rad; at least 1.
@@ -163,11 +166,16 @@ bool is_much(const RunSteps& run, const HalvedRun& halved, const EntryChange& ch
 HalvingVerdict judge_halving(const RunSteps& run, const HalvedRun& halved,
                              const std::vector<std::string>& units, double accuracy) {
   HalvingVerdict verdict;
-  for (const EntryChange& change : halved.entries()) {
-    if (!is_much(run, halved, change, units, accuracy)) continue;
-    verdict.leads_elsewhere = true;
+  std::vector<const EntryChange*> much;
+  for (const EntryChange& change : halved.entries())
+    if (is_much(run, halved, change, units, accuracy)) much.push_back(&change);
+  verdict.leads_elsewhere = !much.empty();
+  if (much.empty()) return verdict;
+  const std::vector<LocalErrors> all = local_errors(run, much);
+  for (std::size_t i = 0; i < much.size(); ++i) {
+    const EntryChange& change = *much[i];
+    const LocalErrors& errors = all[i];
     const double usual = std::sqrt(change.size / static_cast<double>(halved.times()));
-    const LocalErrors errors = local_errors(run, change.entries);
     if (std::isfinite(change.square) && !(errors.sum > accuracy * usual)) continue;
     const std::size_t k = change.entries.front(), positions = run.flow.position_count();
     const bool is_velocity = k >= positions;
