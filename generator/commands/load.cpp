@@ -222,20 +222,14 @@ void tell_float_misfit(const CompiledModel& compiled) {
 }
 
 int refuse(const LoadedMechanism& loaded, const validate::Verdict& verdict) {
-  if (!verdict.advice.empty()) {
-    const support::SourceRange& where = loaded.mechanism.loop_options.where.line > 0
-                                            ? loaded.mechanism.loop_options.where
-                                            : loaded.mechanism.where;
+  const bool overflows = verdict.overflows == verdict.failures.size();
+  if (overflows || !verdict.advice.empty()) {
+    const support::SourceRange& loops = loaded.mechanism.loop_options.where;
+    const support::SourceRange& where = overflows || loops.line == 0 ? loaded.mechanism.where : loops;
     fmt::print(stderr, "{}:{}:{}: error: {}\n  {}\n", loaded.options.path, where.line, where.column,
-               verdict.failures.front(), verdict.advice);
-    return kModelWrong;
-  }
-  if (verdict.overflows == verdict.failures.size()) {
-    const support::SourceRange& where = loaded.mechanism.where;
-    fmt::print(stderr,
-               "{}:{}:{}: error: {}\n  Units in which masses and lengths are nearer to 1 keep the numbers in "
-               "its range.\n",
-               loaded.options.path, where.line, where.column, verdict.failures.front());
+               verdict.failures.front(),
+               overflows ? "Units in which masses and lengths are nearer to 1 keep the numbers in its range."
+                         : verdict.advice);
     return kModelWrong;
   }
   const std::size_t more = verdict.failures.size() - 1;

@@ -23,8 +23,9 @@ struct StagesOf {
 };
 
 // Steppers of emitted code, for `run` of an ensemble. They can be called where the model has theirs.
-#define JOURDAIN_STEPPER(name, function, stages)                                                     \
+#define JOURDAIN_STEPPER(name, function, count)                                                      \
   struct name##_stepper {                                                                            \
+    static constexpr int stages = count;                                                             \
     template <class Model, class State, class Input, class Real>                                     \
     JOURDAIN_FUNCTION auto operator()(const Model& m, State& s, const Input& u, const Real& h) const \
         -> decltype(function(m, s, u, h)) {                                                          \

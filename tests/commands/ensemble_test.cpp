@@ -11,6 +11,8 @@
 #include "commands/ensemble_text.hpp"
 #include "commands/run_jourdain.hpp"
 #include "jourdain/draws.hpp"
+#include "jourdain/stepping.hpp"
+#include "programs/steppers.hpp"
 #include "support/files.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -120,6 +122,17 @@ TEST_F(EnsembleCommand, GivesTheSameNumbersHoweverItIsCut) {
     parts += part == 1 ? text : text.substr(header);
   }
   EXPECT_EQ(parts, whole);
+}
+
+TEST(EnsembleSteppers, HaveTheStagesOfTheirMethods) {
+  const auto expect_stages = [](const char* method, int stages) {
+    EXPECT_EQ(programs::find_stepper(method)->evaluations, stages) << method;
+  };
+  expect_stages("euler", euler_stepper::stages);
+  expect_stages("semi_implicit_euler", semi_implicit_euler_stepper::stages);
+  expect_stages("heun", heun_stepper::stages);
+  expect_stages("rk4", rk4_stepper::stages);
+  expect_stages("rk5", rk5_stepper::stages);
 }
 
 /// Other last digits, the same ones however it is cut.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <utility>
 #include <vector>
 
@@ -487,69 +488,48 @@ TEST(LoopCommands, ReportsSayWhereLoopsTurnSingularAndRecommendNothing) {
 }
 #endif
 
-/// A crank that goes round 17 times: float rounds its angle by more than what is open at an angle of 1.
+constexpr const char* kExplicit = "treatment = \"explicit\"\nindependent = [\"crank\"]\n";
+
+/// A crank that has gone round 50 times: float rounds its angle by more than what is open at an angle of 1.
 TEST(LoopCommands, FloatsOfLargeAnglesAreNotTakenForOpenLoops) {
   const support::TemporaryFolder folder;
-  const std::string model = folder.path() + "/turning.toml";
-  support::write_file(model, R"(
-[model]
-name = "turning"
-gravity = [0, -9.81, 0]
-[[body]]
-name = "arm"
-mass = 0.6
-center_of_mass = [0.15, 0, 0]
-shape = { kind = "rod", length = 0.3, axis = "x" }
-[[body]]
-name = "bar"
-mass = 1.6
-center_of_mass = [0.4, 0, 0]
-shape = { kind = "rod", length = 0.8, axis = "x" }
-[[body]]
-name = "slider"
-mass = 0.6
-[[joint]]
-name = "crank"
-type = "revolute"
-parent = "world"
-child = "arm"
-axis = [0, 0, 1]
-initial_position = 0.6
-initial_velocity = 6.0
-[[joint]]
-name = "rod"
-type = "revolute"
-parent = "arm"
-child = "bar"
-position = [0.3, 0, 0]
-axis = [0, 0, 1]
-initial_position = -0.686850070420895
-[[joint]]
-name = "piston"
-type = "prismatic"
-parent = "world"
-child = "slider"
-position = [0, 0.1, 0]
-axis = [1, 0, 0]
-initial_position = 1.0445854066320879
-[[frame]]
-name = "end"
-body = "bar"
-position = [0.8, 0, 0]
-[[loop]]
-name = "pin"
-type = "planar_pin"
-from = "slider"
-to = "end"
-axis = [0, 0, 1]
-[loops]
-treatment = "multipliers"
-)");
-  const std::vector<std::string> words = {"simulate", model, "--duration", "20", "--step", "0.002"};
-  expect(jourdain(words), 0, "piston");
-  std::vector<std::string> in_float = words;
-  in_float.insert(in_float.end(), {"--real", "float"});
-  expect(jourdain(in_float), 0, "piston");
+  const std::string model =
+      changed_model(folder.path(), "four_bar.toml",
+                    {{kExplicit, "treatment = \"multipliers\"\n"}, {"60*deg", "60*deg + 100*pi"}});
+  for (const char* real : {"float", "double"})
+    expect(jourdain(
+               {"simulate", model, "--real", real, "--duration", "5", "--output", folder.path() + "/x.csv"}),
+           0, "rocker");
+}
+
+/// A coupler that weighs 10^7 times the other bars: accelerations in float were 7 % off.
+TEST(LoopCommands, ConstraintsThatFloatDoesNotDiscernAreRefused) {
+  const support::TemporaryFolder folder;
+  const std::string output = folder.path() + "/out";
+  const auto describe = [&](const std::string& bars, const std::string& treatment) {
+    return changed_model(folder.path(), "four_bar.toml",
+                         {{kExplicit, treatment},
+                          {"mass = 0.24", "mass = " + bars},
+                          {"mass = 0.48", "mass = " + bars},
+                          {"mass = 0.72", "mass = 1000.0"}});
+  };
+  const std::string hardly = "in float multipliers hardly tell the weakest constraint from rounding (",
+                    multipliers = "treatment = \"multipliers\"\n", told = "warning: " + hardly;
+  std::string model = describe("0.0001", multipliers);
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"check"}, {"compile", "-o", output}, {"simulate"}, {"ensemble"}}) {
+    std::vector<std::string> words = command;
+    words.insert(words.begin() + 1, {model, "--real", "float"});
+    expect(jourdain(words), 1, "four_bar.toml:");
+    expect(jourdain(words), 1, ": error: " + hardly);
+    EXPECT_FALSE(std::filesystem::exists(output));
+  }
+  expect(jourdain({"compile", model, "-o", output}), 0, told);
+  EXPECT_EQ(jourdain({"check", model, "--real", "double"}).output.find(hardly), std::string::npos);
+  model = describe("0.0001", kExplicit);
+  EXPECT_EQ(jourdain({"check", model, "--real", "float"}).output.find(hardly), std::string::npos);
+  model = describe("100.0", multipliers);
+  expect(jourdain({"check", model, "--real", "float"}), 0, "ok: ");
 }
 
 TEST(LoopCommands, FloatIsNamedWhereItIsTooCoarse) {
